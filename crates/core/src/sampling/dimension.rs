@@ -1,0 +1,18 @@
+//! Names of the random decisions along a path.
+
+/// A random decision. Two decisions at one point of the ray tree never share a dimension; the way to the point is in
+/// the sampler's branch (see [`super::Sampler::fork`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Dim {
+    /// Position inside the pixel.
+    Pixel,
+    /// Moment within the shutter interval.
+    Time,
+    /// Point on the lens.
+    Lens,
+    /// Point on a light.
+    Light,
+    /// Direction of a scattered ray.
+    Scatter,
+}

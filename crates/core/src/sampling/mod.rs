@@ -1,0 +1,9 @@
+//! Random numbers as pure functions of (seed, pixel, sample index, branch, named dimension).
+
+mod dimension;
+mod hash;
+mod sampler;
+mod sobol;
+
+pub use dimension::Dim;
+pub use sampler::{Sampler, SamplerKind};

@@ -1,0 +1,84 @@
+//! Four lanes of radiance or reflectance.
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign};
+
+/// Values at four lanes. Only [`super::Basis`] knows whether they are RGB or wavelengths; everything else treats the
+/// lanes alike. Units are those of the quantity (radiance: W / (m² sr); weights and reflectances: none).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spectrum([f32; 4]);
+
+impl Spectrum {
+    /// Nothing.
+    pub const BLACK: Self = Self([0.0; 4]);
+    /// One in every lane: a weight that changes nothing.
+    pub const ONE: Self = Self([1.0; 4]);
+
+    pub(crate) const fn from_lanes(lanes: [f32; 4]) -> Self {
+        Self(lanes)
+    }
+    pub(crate) const fn lanes(self) -> [f32; 4] {
+        self.0
+    }
+    /// `v` in every lane.
+    pub const fn splat(v: f32) -> Self {
+        Self([v; 4])
+    }
+    /// `f` of every lane.
+    pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
+        Self(self.0.map(f))
+    }
+    /// `f` of every pair of lanes.
+    pub fn zip(self, o: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], o.0[i])))
+    }
+    /// Largest lane: what stop rules compare.
+    pub fn max(self) -> f32 {
+        self.0[0].max(self.0[1]).max(self.0[2]).max(self.0[3])
+    }
+    /// Plain mean of the lanes; in RGB `(r + 2 g + b) / 4`, a fair stand-in for luminance.
+    pub fn mean(self) -> f32 {
+        (self.0[0] + self.0[1] + self.0[2] + self.0[3]) * 0.25
+    }
+    /// True if every lane is zero.
+    pub fn is_black(self) -> bool {
+        self.0 == [0.0; 4]
+    }
+    /// False if a lane is infinite or NaN.
+    pub fn is_finite(self) -> bool {
+        self.0.iter().all(|v| v.is_finite())
+    }
+}
+
+impl Add for Spectrum {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        self.zip(o, |a, b| a + b)
+    }
+}
+impl AddAssign for Spectrum {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl Mul for Spectrum {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        self.zip(o, |a, b| a * b)
+    }
+}
+impl MulAssign for Spectrum {
+    fn mul_assign(&mut self, o: Self) {
+        *self = *self * o;
+    }
+}
+impl Mul<f32> for Spectrum {
+    type Output = Self;
+    fn mul(self, s: f32) -> Self {
+        self.map(|v| v * s)
+    }
+}
+impl Div<f32> for Spectrum {
+    type Output = Self;
+    fn div(self, s: f32) -> Self {
+        self.map(|v| v / s)
+    }
+}
