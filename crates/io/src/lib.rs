@@ -1,1 +1,9 @@
-//! stub
+//! Files: scene importers, image readers and writers, and the folder a scene may read from.
+#![forbid(unsafe_code)]
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
+
+mod assets;
+pub mod image;
+pub mod import;
+
+pub use assets::FileAssets;

@@ -1,1 +1,27 @@
-//! stub
+//! Scene descriptions: plain data that importers write and `durer-render` compiles.
+//!
+//! [`SceneDesc`] knows no files, no threads and no rendering. Nodes carry spans, so that every later complaint points
+//! at the text it is about ([`Diagnostics`]). A [`Schema`] says which parameters a kind takes.
+#![forbid(unsafe_code)]
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
+
+mod assets;
+mod desc;
+mod diag;
+mod mesh;
+mod nearest;
+mod params;
+mod schema;
+mod span;
+
+pub use assets::{AssetError, Assets, Image, ImageData, Limits};
+pub use desc::{
+    CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc,
+    TextureValue,
+};
+pub use diag::{Diagnostic, Diagnostics, Severity};
+pub use mesh::{Mesh, MeshError};
+pub use nearest::nearest_word;
+pub use params::{Data, Param, Params, ValueType};
+pub use schema::{Args, ColorInput, Entry, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema, find};
+pub use span::{Location, SourceId, Sources, Span};

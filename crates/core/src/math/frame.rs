@@ -29,7 +29,7 @@ impl Frame {
         let z = Vector3::from(n);
         let x = tangent - z * z.dot(tangent);
         let length = x.length();
-        if !(length > 1e-6 * tangent.length()) {
+        if length.is_nan() || length <= 1e-6 * tangent.length() {
             return Self::from_z(n);
         }
         let x = x / length;

@@ -1,0 +1,68 @@
+//! Scene files in: bytes to [`SceneDesc`] and [`Diagnostics`].
+//!
+//! A new format is one file here and one line in [`FORMATS`].
+
+mod gltf;
+pub mod pbrt;
+
+use std::path::Path;
+
+use durer_scene::{Diagnostics, Limits, SceneDesc, Sources};
+
+use crate::FileAssets;
+
+/// What an importer makes of a file. The description is complete only if `diagnostics` holds no error.
+#[derive(Debug)]
+pub struct Imported {
+    /// The scene.
+    pub desc: SceneDesc,
+    /// Where its images are.
+    pub assets: FileAssets,
+    /// The texts that spans point into.
+    pub sources: Sources,
+    /// Complaints.
+    pub diagnostics: Diagnostics,
+}
+
+/// A scene file format.
+pub struct Format {
+    /// What people call it.
+    pub name: &'static str,
+    /// Suffixes in lower case, without dot.
+    pub suffixes: &'static [&'static str],
+    /// Reads a file of this format.
+    read: fn(&Path, &mut Imported),
+}
+
+/// The formats we read.
+pub const FORMATS: &[Format] = &[
+    Format { name: "glTF 2.0", suffixes: &["gltf", "glb"], read: gltf::read },
+    Format { name: "pbrt", suffixes: &["pbrt"], read: pbrt::read },
+];
+
+/// Reads the scene file at `path`, in any letter case of its suffix. Never fails: what went wrong is in
+/// [`Imported::diagnostics`].
+pub fn open(path: &Path, limits: Limits) -> Imported {
+    let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    let mut imported = Imported {
+        desc: SceneDesc::default(),
+        assets: FileAssets::new(folder, limits),
+        sources: Sources::default(),
+        diagnostics: Diagnostics::default(),
+    };
+    imported.desc.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
+    match FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())) {
+        Some(format) => (format.read)(path, &mut imported),
+        None => {
+            let known: Vec<_> =
+                FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
+            let message = format!("{}: not a scene format durer reads", path.display());
+            imported
+                .diagnostics
+                .error(durer_scene::Location::None, message)
+                .hint(format!("expected a file ending in {}", known.join(", ")));
+        }
+    }
+    imported
+}

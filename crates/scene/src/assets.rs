@@ -1,0 +1,101 @@
+//! The only door to files: `compile` asks, `durer-io` answers.
+use std::sync::Arc;
+
+/// Bounds on what a hostile file may make us allocate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Largest file read, in bytes, after decompression.
+    pub file_bytes: u64,
+    /// Most pixels of one image.
+    pub image_pixels: u64,
+    /// Deepest nesting of nodes, includes or attribute blocks.
+    pub depth: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { file_bytes: 8 << 30, image_pixels: 1 << 28, depth: 256 }
+    }
+}
+
+/// Why an asset could not be had, by whose fault it is.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AssetError {
+    /// No such file.
+    #[error("{path}: file not found")]
+    Missing {
+        /// As asked for.
+        path: String,
+    },
+    /// The operating system refused.
+    #[error("{path}: {reason}")]
+    Io {
+        /// As asked for.
+        path: String,
+        /// What it said.
+        reason: String,
+    },
+    /// The bytes are not what they claim to be.
+    #[error("{path}: {reason}")]
+    Format {
+        /// As asked for.
+        path: String,
+        /// What is wrong with them.
+        reason: String,
+    },
+    /// A format we do not read.
+    #[error("{path}: {reason}")]
+    Unsupported {
+        /// As asked for.
+        path: String,
+        /// What it is and what we read instead.
+        reason: String,
+    },
+    /// Larger than [`Limits`] allow.
+    #[error("{path}: {reason}")]
+    Limits {
+        /// As asked for.
+        path: String,
+        /// Which limit.
+        reason: String,
+    },
+    /// A path that leads out of the scene's folder.
+    #[error("{path}: leads out of the scene's folder")]
+    Outside {
+        /// As asked for.
+        path: String,
+    },
+}
+
+/// Pixels of an image, rows from top to bottom, channels interleaved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ImageData {
+    /// 8 bits per channel.
+    U8(Vec<u8>),
+    /// 16 bits per channel.
+    U16(Vec<u16>),
+    /// Floats.
+    F32(Vec<f32>),
+}
+
+/// A decoded image. Values are as stored: whoever uses it knows whether they are sRGB-encoded or linear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA).
+    pub channels: u32,
+    /// `width * height * channels` values.
+    pub data: ImageData,
+}
+
+/// Where a scene's files come from.
+pub trait Assets: Sync {
+    /// The image at `path`, as the scene file spells it.
+    ///
+    /// # Errors
+    /// Why it could not be had.
+    fn image(&self, path: &str) -> Result<Arc<Image>, AssetError>;
+}

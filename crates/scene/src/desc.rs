@@ -1,0 +1,145 @@
+//! The scene as plain data: what importers write and `compile` reads.
+use std::sync::Arc;
+
+use durer_core::{Id, math::Motion};
+use serde::Serialize;
+
+use crate::{Location, Mesh, Params};
+
+/// Something of a registered kind with its parameters: a shape, material, light, ...
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Node {
+    /// The registered word: `sphere`, `classic`, `point`.
+    pub kind: String,
+    /// Parameters as written.
+    pub params: Params,
+    /// Where the kind was named.
+    pub at: Location,
+}
+
+impl Node {
+    /// A node that no text names.
+    pub fn new(kind: &str, params: Params) -> Self {
+        Self { kind: kind.to_owned(), params, at: Location::None }
+    }
+}
+
+/// A node that others refer to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct NamedNode {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The node.
+    pub node: Node,
+}
+
+/// Index of a material in [`SceneDesc::materials`].
+pub type MaterialRef = Id<NamedNode>;
+
+/// A camera with its placement. It looks along +z of camera space with y up and x to the right (pbrt's left-handed
+/// camera space: the placement contains the mirroring).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CameraDesc {
+    /// Its name; may be empty.
+    pub name: String,
+    /// Kind and parameters.
+    pub node: Node,
+    /// Placement.
+    pub world_from_camera: Motion,
+}
+
+/// What the file asks of the picture; `None` where it is silent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct FilmDesc {
+    /// Pixels per row.
+    pub width: Option<u32>,
+    /// Rows.
+    pub height: Option<u32>,
+    /// Samples per pixel.
+    pub samples: Option<u32>,
+    /// Where the file wants the picture written; shown by `info`, never written to unasked.
+    pub filename: Option<String>,
+}
+
+/// What a texture yields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum TextureValue {
+    /// One number.
+    Float,
+    /// A colour.
+    Color,
+}
+
+/// A texture that parameters refer to by name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TextureDesc {
+    /// The name parameters use.
+    pub name: String,
+    /// What it yields.
+    pub value: TextureValue,
+    /// Kind and parameters.
+    pub node: Node,
+}
+
+/// A light with its placement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LightDesc {
+    /// Its name; may be empty.
+    pub name: String,
+    /// Kind and parameters.
+    pub node: Node,
+    /// Placement.
+    pub world_from_light: Motion,
+}
+
+/// Where a shape's geometry is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum ShapeSource {
+    /// Kind and parameters.
+    Node(Node),
+    /// A mesh of [`SceneDesc::meshes`]; several shapes may share one.
+    Mesh(Id<Mesh>),
+}
+
+/// A placed shape.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShapeDesc {
+    /// What the ray tree and `info` call it; may be empty.
+    pub name: String,
+    /// Geometry.
+    pub source: ShapeSource,
+    /// Placement.
+    pub world_from_object: Motion,
+    /// Material; grey matte if none.
+    pub material: Option<MaterialRef>,
+    /// Turns the normals: the other side is the outside.
+    pub reverse_orientation: bool,
+}
+
+/// A whole scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SceneDesc {
+    /// File stem or name of the built-in scene.
+    pub name: String,
+    /// Cameras; the first is the default.
+    pub cameras: Vec<CameraDesc>,
+    /// Picture settings.
+    pub film: FilmDesc,
+    /// Reconstruction filter.
+    pub filter: Option<Node>,
+    /// Sampler.
+    pub sampler: Option<Node>,
+    /// Light transport.
+    pub integrator: Option<Node>,
+    /// Textures; names are unique per [`TextureValue`].
+    pub textures: Vec<TextureDesc>,
+    /// Materials.
+    pub materials: Vec<NamedNode>,
+    /// Lights.
+    pub lights: Vec<LightDesc>,
+    /// Meshes.
+    #[serde(skip)]
+    pub meshes: Vec<Arc<Mesh>>,
+    /// Shapes.
+    pub shapes: Vec<ShapeDesc>,
+}

@@ -1,0 +1,25 @@
+//! "Did you mean ...?"
+
+/// The valid word nearest to `word`, if one is near enough to be a slip of the finger.
+pub fn nearest_word<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = word.to_lowercase();
+    valid
+        .into_iter()
+        .map(|v| (strsim::damerau_levenshtein(&lower, &v.to_lowercase()), v))
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, v)| *distance <= 1 + v.len().min(word.len()) / 3)
+        .map(|(_, v)| v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_found_and_strangers_are_not() {
+        let valid = ["radius", "zmin", "reflectance"];
+        assert_eq!(nearest_word("raduis", valid), Some("radius"));
+        assert_eq!(nearest_word("Reflectence", valid), Some("reflectance"));
+        assert_eq!(nearest_word("banana", valid), None);
+    }
+}

@@ -1,0 +1,300 @@
+//! Checked access to the parameters of a node.
+use durer_core::spectrum::Color;
+
+use super::{ParamDefault, ParamSpec, ParamType, Schema};
+use crate::{Data, Diagnostics, Location, Node, Param, TextureDesc, TextureValue, ValueType};
+
+/// A colour, or the index of the colour texture that gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColorInput {
+    /// The same everywhere.
+    Constant(Color),
+    /// Index in [`crate::SceneDesc::textures`].
+    Texture(u32),
+}
+
+/// A number, or the index of the float texture that gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FloatInput {
+    /// The same everywhere.
+    Constant(f32),
+    /// Index in [`crate::SceneDesc::textures`].
+    Texture(u32),
+}
+
+/// The parameters of one node, checked against a schema; what [`super::Kind::build`] reads.
+#[derive(Debug)]
+pub struct Args<'a> {
+    node: &'a Node,
+    schema: Schema,
+    textures: &'a [TextureDesc],
+    diagnostics: &'a mut Diagnostics,
+    sound: bool,
+}
+
+impl<'a> Args<'a> {
+    /// Checks `node` against `schema`: every parameter known, well-typed and in range, none required missing.
+    pub fn check(
+        node: &'a Node,
+        schema: Schema,
+        textures: &'a [TextureDesc],
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        let mut args = Self { node, schema, textures, diagnostics, sound: true };
+        for param in node.params.iter() {
+            match schema.params.iter().find(|s| s.name == param.name) {
+                Some(spec) => args.check_param(param, spec),
+                None => {
+                    args.sound = false;
+                    let what = format!("parameter of {}", schema.name);
+                    let names = schema.params.iter().map(|s| s.name);
+                    args.diagnostics.unknown(param.at.clone(), &what, &param.name, names);
+                }
+            }
+        }
+        for spec in schema.params.iter().filter(|s| s.default == ParamDefault::Required) {
+            if node.params.get(spec.name).is_none() {
+                let ty = spec.ty.accepts().first().map_or("", |t| t.word());
+                let message = format!("{} needs the parameter \"{ty} {}\"", schema.name, spec.name);
+                args.error_at(node.at.clone(), message).hint(spec.doc);
+            }
+        }
+        args
+    }
+
+    fn error_at(&mut self, at: Location, message: String) -> &mut crate::Diagnostic {
+        self.sound = false;
+        self.diagnostics.error(at, message)
+    }
+
+    fn check_param(&mut self, param: &Param, spec: &ParamSpec) {
+        let name = &param.name;
+        if !spec.ty.accepts().contains(&param.ty) {
+            let wanted: Vec<_> = spec.ty.accepts().iter().map(|t| t.word()).collect();
+            let message = format!("\"{name}\" is declared {}, expected {}", param.ty.word(), wanted.join(" or "));
+            self.error_at(param.at.clone(), message);
+            return;
+        }
+        let named = matches!(param.data, Data::Strings(_));
+        let arity = if named { 1 } else { param.ty.arity() };
+        let count = param.data.len();
+        let fits = match param.ty {
+            ValueType::Spectrum if !named => count > 0 && count.is_multiple_of(2),
+            _ if spec.ty.is_list() => count.is_multiple_of(arity),
+            _ => count == arity,
+        };
+        if !fits {
+            let wanted = if spec.ty.is_list() { format!("a multiple of {arity}") } else { arity.to_string() };
+            self.error_at(param.at.clone(), format!("\"{name}\" has {count} values, expected {wanted}"));
+            return;
+        }
+        match &param.data {
+            Data::Floats(values) => {
+                let (min, max) = spec.range;
+                if let Some(v) = values.iter().find(|v| !(**v >= min && **v <= max && v.is_finite())) {
+                    let message = format!("\"{name}\" is {v}, expected {}", range_text(spec));
+                    self.error_at(param.at.clone(), message);
+                }
+            }
+            Data::Ints(values) => {
+                let (min, max) = spec.range;
+                if let Some(v) = values.iter().find(|v| (**v as f32) < min || **v as f32 > max) {
+                    let message = format!("\"{name}\" is {v}, expected {}", range_text(spec));
+                    self.error_at(param.at.clone(), message);
+                }
+            }
+            Data::Strings(values) => {
+                if let (ParamType::Choice(words), Some(word)) = (spec.ty, values.first())
+                    && !words.contains(&word.as_str())
+                {
+                    self.sound = false;
+                    self.diagnostics.unknown(param.at.clone(), name, word, words.iter().copied());
+                }
+            }
+            Data::Bools(_) => {}
+        }
+    }
+
+    /// False if a parameter was wrong: the kind is then not built.
+    pub fn is_sound(&self) -> bool {
+        self.sound
+    }
+
+    /// Where the node was named, for complaints that concern no single parameter.
+    pub fn at(&self) -> Location {
+        self.node.at.clone()
+    }
+
+    /// Complains about parameter `name`, or about the node if it is not given.
+    pub fn error(&mut self, name: &str, message: impl Into<String>) {
+        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        self.error_at(at, message.into());
+    }
+
+    /// Warns about parameter `name`, or about the node if it is not given.
+    pub fn warning(&mut self, name: &str, message: impl Into<String>) {
+        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        self.diagnostics.warning(at, message);
+    }
+
+    /// True if the file gives the parameter.
+    pub fn is_set(&self, name: &str) -> bool {
+        self.node.params.get(name).is_some()
+    }
+
+    fn default(&self, name: &str) -> ParamDefault {
+        let spec = self.schema.params.iter().find(|s| s.name == name);
+        debug_assert!(spec.is_some(), "{} has no parameter {name}", self.schema.name);
+        spec.map_or(ParamDefault::Unset, |s| s.default)
+    }
+
+    fn floats_of(&self, name: &str) -> Option<&'a [f32]> {
+        match &self.node.params.get(name)?.data {
+            Data::Floats(v) => Some(v),
+            _ => None,
+        }
+    }
+
+    fn string_of(&self, name: &str) -> Option<&'a str> {
+        match &self.node.params.get(name)?.data {
+            Data::Strings(v) => v.first().map(String::as_str),
+            _ => None,
+        }
+    }
+
+    /// A truth value.
+    pub fn bool(&self, name: &str) -> bool {
+        match (self.node.params.get(name).map(|p| &p.data), self.default(name)) {
+            (Some(Data::Bools(v)), _) => v.first().copied().unwrap_or(false),
+            (_, ParamDefault::Bool(v)) => v,
+            _ => false,
+        }
+    }
+    /// A whole number.
+    pub fn int(&self, name: &str) -> i32 {
+        match (self.ints(name).first(), self.default(name)) {
+            (Some(v), _) => *v,
+            (_, ParamDefault::Int(v)) => v,
+            _ => 0,
+        }
+    }
+    /// A number.
+    pub fn float(&self, name: &str) -> f32 {
+        match (self.floats_of(name).and_then(|v| v.first()), self.default(name)) {
+            (Some(v), _) => *v,
+            (_, ParamDefault::Float(v)) => v,
+            _ => 0.0,
+        }
+    }
+    /// A number that may be left out.
+    pub fn optional_float(&self, name: &str) -> Option<f32> {
+        self.floats_of(name).and_then(|v| v.first()).copied()
+    }
+    /// Three numbers: a point or vector.
+    pub fn triple(&self, name: &str) -> [f32; 3] {
+        match (self.floats_of(name), self.default(name)) {
+            (Some([x, y, z, ..]), _) => [*x, *y, *z],
+            (_, ParamDefault::Triple(v)) => v,
+            _ => [0.0; 3],
+        }
+    }
+    /// Whole numbers; empty if left out.
+    pub fn ints(&self, name: &str) -> &'a [i32] {
+        match self.node.params.get(name).map(|p| &p.data) {
+            Some(Data::Ints(v)) => v,
+            _ => &[],
+        }
+    }
+    /// Numbers, flattened; empty if left out.
+    pub fn floats(&self, name: &str) -> &'a [f32] {
+        self.floats_of(name).unwrap_or(&[])
+    }
+    /// Positions, vectors or normals; empty if left out.
+    pub fn triples(&self, name: &str) -> Vec<[f32; 3]> {
+        self.floats(name).as_chunks::<3>().0.to_vec()
+    }
+    /// 2D points; empty if left out.
+    pub fn pairs(&self, name: &str) -> Vec<[f32; 2]> {
+        self.floats(name).as_chunks::<2>().0.to_vec()
+    }
+    /// A text, choice or path; empty if left out without default.
+    pub fn text(&self, name: &str) -> &'a str {
+        match (self.string_of(name), self.default(name)) {
+            (Some(v), _) => v,
+            (_, ParamDefault::Text(v)) => v,
+            _ => "",
+        }
+    }
+    /// A colour.
+    pub fn color(&mut self, name: &str) -> Color {
+        match self.color_input(name) {
+            ColorInput::Constant(c) => c,
+            ColorInput::Texture(_) => Color::BLACK,
+        }
+    }
+    /// A colour or a colour texture; complains about a texture that does not exist.
+    pub fn color_input(&mut self, name: &str) -> ColorInput {
+        let Some(param) = self.node.params.get(name) else {
+            let ParamDefault::Triple(rgb) = self.default(name) else { return ColorInput::Constant(Color::BLACK) };
+            return ColorInput::Constant(Color { rgb });
+        };
+        match (param.ty, &param.data) {
+            (ValueType::Texture, Data::Strings(v)) => match self.texture(param, v, TextureValue::Color) {
+                Some(index) => ColorInput::Texture(index),
+                None => ColorInput::Constant(Color::BLACK),
+            },
+            (ValueType::Rgb, Data::Floats(v)) => ColorInput::Constant(rgb(v)),
+            (ValueType::Spectrum, Data::Floats(v)) => {
+                self.warning(name, "spectra are read as the mean of their values until spectral rendering exists");
+                let values = v.iter().skip(1).step_by(2);
+                ColorInput::Constant(Color::gray(values.sum::<f32>() / (v.len() / 2).max(1) as f32))
+            }
+            _ => {
+                let message = format!("{} values are not supported here yet; white is used", param.ty.word());
+                self.warning(name, message);
+                ColorInput::Constant(Color::WHITE)
+            }
+        }
+    }
+    /// A number or a float texture; complains about a texture that does not exist.
+    pub fn float_input(&mut self, name: &str) -> FloatInput {
+        match self.node.params.get(name) {
+            Some(param @ Param { ty: ValueType::Texture, data: Data::Strings(v), .. }) => {
+                self.texture(param, v, TextureValue::Float).map_or(FloatInput::Constant(0.0), FloatInput::Texture)
+            }
+            _ => FloatInput::Constant(self.float(name)),
+        }
+    }
+
+    fn texture(&mut self, param: &Param, names: &[String], value: TextureValue) -> Option<u32> {
+        let name = names.first()?;
+        let found = self.textures.iter().position(|t| t.value == value && &t.name == name);
+        if found.is_none() {
+            self.sound = false;
+            let what = match value {
+                TextureValue::Float => "float texture",
+                TextureValue::Color => "spectrum texture",
+            };
+            let names = self.textures.iter().filter(|t| t.value == value).map(|t| t.name.as_str());
+            self.diagnostics.unknown(param.at.clone(), what, name, names);
+        }
+        found.map(|i| i as u32)
+    }
+}
+
+fn rgb(v: &[f32]) -> Color {
+    match v {
+        [r, g, b, ..] => Color::new(*r, *g, *b),
+        _ => Color::BLACK,
+    }
+}
+
+fn range_text(spec: &ParamSpec) -> String {
+    let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
+    match spec.range {
+        (min, max) if min.is_finite() && max.is_finite() => format!("{min} to {max}{unit}"),
+        (min, _) if min.is_finite() => format!("{min} or more{unit}"),
+        (_, max) if max.is_finite() => format!("{max} or less{unit}"),
+        _ => format!("a finite number{unit}"),
+    }
+}
