@@ -1,1 +1,40 @@
-//! stub
+//! Where does a ray first meet the scene? A ray-intersection kernel, worth using alone.
+//!
+//! Two levels of bounding volume hierarchies: one tree over the triangles or boxes of each geometry, one tree over
+//! the placed instances. Shapes that are not triangles are boxes with a callback ([`UserGeometry`]). A second engine,
+//! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
+//!
+//! # The contract of a hit
+//! - A hit has `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
+//! - A triangle hit lies further from the origin than its own rounding error bound, so a ray that starts on a triangle
+//!   does not meet it again at `t` = noise. There are no epsilons.
+//! - `t` is never less than where the ray enters the primitive's box (and its instance's): if rounding says otherwise,
+//!   `t` is raised to it. Box arithmetic is monotone, so no box around the primitive can be entered later than its
+//!   hit, and culling can never change a result. That is what makes both engines equal, not luck with rounding.
+//! - A ray with a zero or non-finite direction, a non-finite origin or `t_min > t_max` misses everything.
+#![forbid(unsafe_code)]
+
+mod accel;
+mod build;
+mod error;
+mod geometry;
+mod hit;
+mod placement;
+mod probe;
+mod slab;
+mod space;
+mod stats;
+mod traverse;
+mod tree;
+pub mod triangle;
+mod user;
+
+pub use accel::{Accel, NodeBounds};
+pub use build::{AccelBuilder, BuildOptions, Engine};
+pub use error::BuildError;
+pub use geometry::{GeometryId, Triangles};
+pub use hit::{Hit, PrimitiveHit};
+pub use placement::Placement;
+pub use probe::{NoTraversalProbe, TraversalCounts, TraversalProbe};
+pub use stats::BuildStats;
+pub use user::{NoUserGeometry, UserGeometry};

@@ -1,1 +1,45 @@
-//! stub
+//! What a scene is made of: shapes, materials, lights, textures and cameras.
+//!
+//! Each folder holds a trait, a registry and one file per kind. A new kind is one new file and one line in the
+//! registry; parsing, checks, help, reference documentation and the conformance tests iterate over it.
+#![forbid(unsafe_code)]
+
+pub mod bsdf;
+pub mod camera;
+pub mod light;
+pub mod material;
+pub mod shape;
+mod surface;
+pub mod texture;
+
+use durer_core::spectrum::{Basis, Color};
+use durer_scene::{ColorInput, FloatInput};
+
+pub use surface::Surface;
+use texture::{Texture, TextureAt};
+
+/// What materials need to turn a point into a [`bsdf::Bsdf`].
+#[derive(Clone, Copy)]
+pub struct ShadeCx<'a> {
+    /// Meaning of the lanes.
+    pub basis: Basis,
+    /// The scene's textures, in the order of [`durer_scene::SceneDesc::textures`].
+    pub textures: &'a [Box<dyn Texture>],
+}
+
+impl ShadeCx<'_> {
+    /// The colour of `input` at a point.
+    pub fn color(&self, input: ColorInput, at: &TextureAt) -> Color {
+        match input {
+            ColorInput::Constant(color) => color,
+            ColorInput::Texture(index) => self.textures[index as usize].color(self, at),
+        }
+    }
+    /// The number of `input` at a point.
+    pub fn float(&self, input: FloatInput, at: &TextureAt) -> f32 {
+        match input {
+            FloatInput::Constant(value) => value,
+            FloatInput::Texture(index) => self.textures[index as usize].float(self, at),
+        }
+    }
+}

@@ -23,5 +23,5 @@ pub use diag::{Diagnostic, Diagnostics, Severity};
 pub use mesh::{Mesh, MeshError};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
-pub use schema::{Args, ColorInput, Entry, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema, find};
+pub use schema::{Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema, find};
 pub use span::{Location, SourceId, Sources, Span};

@@ -3,7 +3,7 @@
 mod args;
 mod param;
 
-pub use args::{Args, ColorInput, FloatInput};
+pub use args::{Args, ColorInput, FloatInput, Missing};
 pub use param::{ParamDefault, ParamSpec, ParamType};
 
 use crate::{Diagnostics, Node};

@@ -1,8 +1,10 @@
 //! Checked access to the parameters of a node.
+use std::sync::Arc;
+
 use durer_core::spectrum::Color;
 
 use super::{ParamDefault, ParamSpec, ParamType, Schema};
-use crate::{Data, Diagnostics, Location, Node, Param, TextureDesc, TextureValue, ValueType};
+use crate::{AssetError, Assets, Data, Diagnostics, Image, Location, Node, Param, TextureDesc, TextureValue, ValueType};
 
 /// A colour, or the index of the colour texture that gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,13 +24,23 @@ pub enum FloatInput {
     Texture(u32),
 }
 
+/// What becomes of a file that is missing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Missing {
+    /// An error: no picture.
+    #[default]
+    Refuse,
+    /// A warning, and `None` where the image was asked for: the kind shows a placeholder.
+    Warn,
+}
+
 /// The parameters of one node, checked against a schema; what [`super::Kind::build`] reads.
-#[derive(Debug)]
 pub struct Args<'a> {
     node: &'a Node,
     schema: Schema,
     textures: &'a [TextureDesc],
     diagnostics: &'a mut Diagnostics,
+    assets: Option<(&'a dyn Assets, Missing)>,
     sound: bool,
 }
 
@@ -40,7 +52,7 @@ impl<'a> Args<'a> {
         textures: &'a [TextureDesc],
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
-        let mut args = Self { node, schema, textures, diagnostics, sound: true };
+        let mut args = Self { node, schema, textures, diagnostics, assets: None, sound: true };
         for param in node.params.iter() {
             match schema.params.iter().find(|s| s.name == param.name) {
                 Some(spec) => args.check_param(param, spec),
@@ -60,6 +72,13 @@ impl<'a> Args<'a> {
             }
         }
         args
+    }
+
+    /// The same, with files at hand.
+    #[must_use]
+    pub fn with_assets(mut self, assets: &'a dyn Assets, missing: Missing) -> Self {
+        self.assets = Some((assets, missing));
+        self
     }
 
     fn error_at(&mut self, at: Location, message: String) -> &mut crate::Diagnostic {
@@ -263,6 +282,25 @@ impl<'a> Args<'a> {
                 self.texture(param, v, TextureValue::Float).map_or(FloatInput::Constant(0.0), FloatInput::Texture)
             }
             _ => FloatInput::Constant(self.float(name)),
+        }
+    }
+
+    /// The image that a [`ParamType::File`] names; `None` if it cannot be had, which was then complained about.
+    pub fn image(&mut self, name: &str) -> Option<Arc<Image>> {
+        let Some((assets, missing)) = self.assets else {
+            self.error(name, "no files can be read here");
+            return None;
+        };
+        match assets.image(self.text(name)) {
+            Ok(image) => Some(image),
+            Err(error @ AssetError::Missing { .. }) if missing == Missing::Warn => {
+                self.warning(name, format!("{error}; a placeholder is shown"));
+                None
+            }
+            Err(error) => {
+                self.error(name, error.to_string());
+                None
+            }
         }
     }
 

@@ -1,0 +1,82 @@
+//! Why a scene cannot be built.
+use thiserror::Error;
+
+/// A mistake in what was handed to the builder; the builder is left as it was before the call.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// A vertex has an infinite or NaN coordinate.
+    #[error("vertex {vertex} has a coordinate that is infinite or NaN; remove it or give it a finite position")]
+    VertexNotFinite {
+        /// Index into `positions`.
+        vertex: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices (counted from 0); correct the index or add the vertex")]
+    VertexOutOfRange {
+        /// Index into `indices`.
+        triangle: usize,
+        /// The index it holds.
+        vertex: u32,
+        /// Number of positions.
+        vertices: usize,
+    },
+    /// A box of user geometry has a NaN corner or a minimum above its maximum.
+    #[error("box {prim} of user geometry is NaN or has min > max on some axis; give a box that contains the shape")]
+    BoxInvalid {
+        /// Index into the list of boxes.
+        prim: usize,
+    },
+    /// A placement squashes space flat or holds a number that is not finite.
+    #[error("transform {key} of instance {instance} cannot be inverted; use finite coefficients and no zero scale")]
+    TransformSingular {
+        /// Index the instance would have had.
+        instance: usize,
+        /// Which motion key; 0 for a still instance.
+        key: usize,
+    },
+    /// A moving placement has no keys or its times do not rise.
+    #[error("motion key {key} of instance {instance} is missing or its time does not rise; give finite, strictly rising times")]
+    MotionKeyInvalid {
+        /// Index the instance would have had.
+        instance: usize,
+        /// Which motion key.
+        key: usize,
+    },
+    /// The geometry was made by another builder.
+    #[error("geometry {geometry} does not exist in this builder; add the geometry before placing it")]
+    GeometryUnknown {
+        /// The number inside the id.
+        geometry: u32,
+    },
+    /// Ids would not fit.
+    #[error("{count} {what} are more than the {limit} that ids can count; split the scene", limit = u32::MAX / 2)]
+    TooMany {
+        /// How many there are.
+        count: usize,
+        /// Of what.
+        what: &'static str,
+    },
+}
+
+impl BuildError {
+    /// `count` as an id.
+    pub(crate) fn check_count(count: usize, what: &'static str) -> Result<u32, Self> {
+        u32::try_from(count).ok().filter(|n| *n <= u32::MAX / 2).ok_or(Self::TooMany { count, what })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_primitives_than_ids_are_refused() {
+        let most = (u32::MAX / 2) as usize;
+        assert_eq!(BuildError::check_count(most, "triangles"), Ok(u32::MAX / 2));
+        let error = BuildError::check_count(most + 1, "triangles").expect_err("one too many");
+        assert_eq!(
+            error.to_string(),
+            "2147483648 triangles are more than the 2147483647 that ids can count; split the scene"
+        );
+    }
+}

@@ -1,0 +1,21 @@
+//! Cameras: film positions to rays.
+//!
+//! Camera space has x to the right, y up and looks along +z (pbrt's left-handed camera space). A camera knows no film.
+//! A new camera is one file here and one line in [`CAMERAS`].
+
+use std::fmt::Debug;
+
+use durer_core::math::{Point2, Ray};
+use durer_scene::Entry;
+
+/// A camera.
+pub trait Camera: Debug + Send + Sync {
+    /// Adapts the field of view to a picture of this many pixels; called once, before any ray is asked for.
+    fn fit(&mut self, width: u32, height: u32);
+    /// The ray through `film` (x right, y down, both in `[0, 1]` over the whole picture) in camera space, with a
+    /// direction of unit length. `lens` in `[0, 1)²` picks a point of the aperture.
+    fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray;
+}
+
+/// All kinds of camera.
+pub const CAMERAS: &[Entry<Box<dyn Camera>>] = &[];

@@ -1,0 +1,51 @@
+//! Light sources.
+//!
+//! A new light is one file here and one line in [`LIGHTS`].
+
+use std::fmt::Debug;
+
+use durer_core::{
+    math::{Normal3, Point2, Point3, Transform, Vector3},
+    spectrum::{Basis, Spectrum},
+};
+use durer_scene::Entry;
+
+/// Light arriving at a point from one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSample {
+    /// Unit direction towards the light.
+    pub wi: Vector3,
+    /// The point on the light; `None` if it is infinitely far away.
+    pub point: Option<Point3>,
+    /// Incident radiance divided by the density of sampling `wi`; for lights without extent the irradiance on a plane
+    /// facing `wi`. Reflected radiance is `f cos weight`. W/m² (of a unit scene).
+    pub weight: Spectrum,
+}
+
+/// A light, in render space once placed.
+pub trait Light: Debug + Send + Sync {
+    /// Moves the light from its own space into render space.
+    fn place(&mut self, render_from_light: &Transform);
+    /// Light that could arrive at `p`, if nothing is in between; `u` picks a point of an extended light. `None` if
+    /// nothing can arrive or the light is not sampled this way.
+    fn sample(&self, basis: Basis, p: Point3, u: Point2) -> Option<LightSample>;
+    /// The ambient term: unoccluded irradiance on a surface facing `n`, divided by pi.
+    fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
+        let _ = (basis, n);
+        Spectrum::BLACK
+    }
+    /// The unoccluded radiance arriving about unit direction `d`, blurred as a glossy reflection of the given GGX
+    /// `alpha` in `[0, 1]` sees it.
+    fn glossy_ambient(&self, basis: Basis, d: Vector3, alpha: f32) -> Spectrum {
+        let _ = (basis, d, alpha);
+        Spectrum::BLACK
+    }
+    /// Radiance along a ray of unit direction `d` that left the scene.
+    fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
+        let _ = (basis, d);
+        Spectrum::BLACK
+    }
+}
+
+/// All kinds of light.
+pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[];
