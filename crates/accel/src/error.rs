@@ -5,13 +5,17 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A vertex has an infinite or NaN coordinate.
-    #[error("vertex {vertex} has a coordinate that is infinite or NaN; remove it or give it a finite position")]
+    #[error(
+        "vertex {vertex} has a coordinate that is infinite or NaN; remove it or give it a finite position"
+    )]
     VertexNotFinite {
         /// Index into `positions`.
         vertex: usize,
     },
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices (counted from 0); correct the index or add the vertex")]
+    #[error(
+        "triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices (counted from 0); correct the index or add the vertex"
+    )]
     VertexOutOfRange {
         /// Index into `indices`.
         triangle: usize,
@@ -21,13 +25,17 @@ pub enum BuildError {
         vertices: usize,
     },
     /// A box of user geometry has a NaN corner or a minimum above its maximum.
-    #[error("box {prim} of user geometry is NaN or has min > max on some axis; give a box that contains the shape")]
+    #[error(
+        "box {prim} of user geometry is NaN or has min > max on some axis; give a box that contains the shape"
+    )]
     BoxInvalid {
         /// Index into the list of boxes.
         prim: usize,
     },
     /// A placement squashes space flat or holds a number that is not finite.
-    #[error("transform {key} of instance {instance} cannot be inverted; use finite coefficients and no zero scale")]
+    #[error(
+        "transform {key} of instance {instance} cannot be inverted; use finite coefficients and no zero scale"
+    )]
     TransformSingular {
         /// Index the instance would have had.
         instance: usize,
@@ -35,7 +43,9 @@ pub enum BuildError {
         key: usize,
     },
     /// A moving placement has no keys or its times do not rise.
-    #[error("motion key {key} of instance {instance} is missing or its time does not rise; give finite, strictly rising times")]
+    #[error(
+        "motion key {key} of instance {instance} is missing or its time does not rise; give finite, strictly rising times"
+    )]
     MotionKeyInvalid {
         /// Index the instance would have had.
         instance: usize,
@@ -61,7 +71,10 @@ pub enum BuildError {
 impl BuildError {
     /// `count` as an id.
     pub(crate) fn check_count(count: usize, what: &'static str) -> Result<u32, Self> {
-        u32::try_from(count).ok().filter(|n| *n <= u32::MAX / 2).ok_or(Self::TooMany { count, what })
+        u32::try_from(count)
+            .ok()
+            .filter(|n| *n <= u32::MAX / 2)
+            .ok_or(Self::TooMany { count, what })
     }
 }
 

@@ -5,7 +5,7 @@
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
 //!
 //! # The contract of a hit
-//! - A hit has `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
+//! - A hit has a finite `t` with `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
 //! - A triangle hit lies further from the origin than its own rounding error bound, so a ray that starts on a triangle
 //!   does not meet it again at `t` = noise. There are no epsilons.
 //! - `t` is never less than where the ray enters the primitive's box (and its instance's): if rounding says otherwise,

@@ -6,7 +6,7 @@ use crate::PrimitiveHit;
 /// Intersection routines of the boxes given to `AccelBuilder::user`.
 ///
 /// `ray` is in the instance's object space; its direction keeps the scale of the instance's transform, so `t` means
-/// the same as in the caller's space. `ray.t_max` shrinks as nearer hits are found.
+/// the same as in the caller's space. `ray.t_max` is finite and shrinks as nearer hits are found.
 pub trait UserGeometry {
     /// The smallest `t` in `[ray.t_min, ray.t_max]` at which `ray` meets the shape. It must not depend on `ray.t_max`
     /// other than through that bound, or results depend on the order of traversal.

@@ -1,1 +1,50 @@
-//! stub
+//! **durer**, a ray tracer that lets you look inside.
+//!
+//! ```no_run
+//! use durer::{Options, prepare};
+//!
+//! let mut imported = durer::open("scene.glb");
+//! let prepared = prepare(&mut imported, &Options::default()).expect("the diagnostics say what is wrong");
+//! let rendered = prepared.job().render(Default::default(), &(), &Default::default());
+//! let rgb = rendered.film.pixels()[0].mean();
+//! ```
+//!
+//! Data flows one way: [`open`] parses and describes, [`prepare`] compiles, [`Job::render`] renders, [`film::develop`]
+//! makes a picture, [`image`] writes it. What goes wrong on the way is in [`Imported::diagnostics`].
+#![forbid(unsafe_code)]
+
+pub mod builtin;
+mod options;
+mod prepare;
+
+pub use durer_accel as accel;
+pub use durer_core::{Id, glam, math, sampling, spectrum};
+pub use durer_io::{
+    FileAssets, image,
+    import::{self, FORMATS, Imported},
+};
+pub use durer_model as model;
+pub use durer_render::{
+    Contribution, Object, PathRay, SampleCx, Scene, Value, View, compile,
+    drive::{self, Gather, Job, Progress, Rendered, Settings},
+    film,
+    integrator::{self, Output, Show},
+    probe,
+};
+pub use durer_scene as scene;
+
+pub use options::Options;
+pub use prepare::{Prepared, prepare};
+
+use std::path::Path;
+
+use durer_scene::Limits;
+
+/// Reads a scene: a file, or a built-in scene by name. A file of that name in the current folder is not mistaken for
+/// the built-in scene, as files have a suffix.
+pub fn open(scene: &str) -> Imported {
+    match builtin::find(scene) {
+        Some(builtin) => builtin.import(),
+        None => import::open(Path::new(scene), Limits::default()),
+    }
+}

@@ -1,18 +1,131 @@
 //! The folder a scene may read from.
-use std::path::PathBuf;
+//!
+//! A scene file is hostile until proven otherwise: a path that leads out of its folder (absolute, `..`, a symbolic
+//! link) is refused, and lengths are checked before anything is read or decoded.
+use std::{
+    collections::{BTreeMap, HashMap},
+    fs::File,
+    io::{ErrorKind, Read},
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
 
-use durer_scene::Limits;
+use durer_scene::{AssetError, Assets, Image, Limits};
 
 /// Files below one folder, and images embedded in the scene file itself.
 #[derive(Debug)]
 pub struct FileAssets {
     folder: PathBuf,
     limits: Limits,
+    embedded: BTreeMap<String, Arc<[u8]>>,
+    images: Mutex<HashMap<String, Arc<Image>>>,
 }
 
 impl FileAssets {
-    /// Assets below `folder`.
+    /// Assets below `folder`; the empty path is the current folder.
     pub fn new(folder: PathBuf, limits: Limits) -> Self {
-        Self { folder, limits }
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        Self { folder, limits, embedded: BTreeMap::new(), images: Mutex::new(HashMap::new()) }
     }
+    /// Registers an embedded file under `name`, which then goes before a file of that name.
+    pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
+        let name = name.into();
+        self.cache().remove(&name);
+        self.embedded.insert(name, bytes.into());
+    }
+    /// The limits that reading keeps to.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+    /// The contents of the file at `path` (relative to the folder, `/` or `\` between names) or of the embedded file
+    /// of that name.
+    ///
+    /// # Errors
+    /// Why it could not be had.
+    pub fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
+        if let Some(bytes) = self.embedded.get(path) {
+            return Ok(Arc::clone(bytes));
+        }
+        read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
+    }
+    /// Where the file at `path` is, once it is certain that it lies in the folder.
+    ///
+    /// # Errors
+    /// If it does not, or is not there.
+    pub fn resolve(&self, path: &str) -> Result<PathBuf, AssetError> {
+        let outside = || AssetError::Outside { path: path.to_owned() };
+        let relative = relative_names(path).ok_or_else(outside)?;
+        let canonical = |p: &Path| p.canonicalize().map_err(|e| io_error(path, &e));
+        let file = canonical(&self.folder.join(relative))?;
+        // Only the canonical paths tell whether a symbolic link leads out.
+        if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
+    }
+    fn cache(&self) -> MutexGuard<'_, HashMap<String, Arc<Image>>> {
+        // The map is whole even if a thread died while it held the lock: entries are inserted in one step.
+        self.images.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Assets for FileAssets {
+    fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
+        if let Some(image) = self.cache().get(path) {
+            return Ok(Arc::clone(image));
+        }
+        // Decoded without the lock, so that several images can be decoded at the same time.
+        let image = Arc::new(crate::image::read(&self.bytes(path)?, path, self.limits)?);
+        Ok(Arc::clone(self.cache().entry(path.to_owned()).or_insert(image)))
+    }
+}
+
+/// `path` without `.` and `..`; `None` if it is absolute or climbs out.
+fn relative_names(path: &str) -> Option<PathBuf> {
+    let path = path.replace('\\', "/");
+    let drive = path.as_bytes().get(1) == Some(&b':');
+    if path.starts_with('/') || drive || path.contains('\0') {
+        return None;
+    }
+    let mut names: Vec<&str> = Vec::new();
+    for name in path.split('/') {
+        match name {
+            "" | "." => {}
+            ".." => drop(names.pop()?),
+            _ => names.push(name),
+        }
+    }
+    Some(names.iter().collect())
+}
+
+fn io_error(path: &str, error: &std::io::Error) -> AssetError {
+    match error.kind() {
+        ErrorKind::NotFound => AssetError::Missing { path: path.to_owned() },
+        _ => AssetError::Io { path: path.to_owned(), reason: error.to_string() },
+    }
+}
+
+/// Reads `file`, which messages call `name`, if it is no longer than the limits allow.
+///
+/// # Errors
+/// If it is longer, or cannot be read.
+pub(crate) fn read_file(file: &Path, name: &str, limits: Limits) -> Result<Vec<u8>, AssetError> {
+    let fail = |e: std::io::Error| io_error(name, &e);
+    let too_long = |length: u64| AssetError::Limits {
+        path: name.to_owned(),
+        reason: format!("{length} bytes, but the limit is {}", limits.file_bytes),
+    };
+    let handle = File::open(file).map_err(fail)?;
+    let metadata = handle.metadata().map_err(fail)?;
+    if !metadata.is_file() {
+        let reason = "not a file".to_owned();
+        return Err(AssetError::Io { path: name.to_owned(), reason });
+    }
+    if metadata.len() > limits.file_bytes {
+        return Err(too_long(metadata.len()));
+    }
+    let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
+    // The file may grow while it is read.
+    handle.take(limits.file_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > limits.file_bytes {
+        return Err(too_long(bytes.len() as u64));
+    }
+    Ok(bytes)
 }

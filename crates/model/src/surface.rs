@@ -1,5 +1,5 @@
 //! The place where a ray met something.
-use durer_core::math::{Normal3, Point2, Point3, Ray, Transform, Vector3, error::offset_ray_origin};
+use durer_core::math::{Frame, Normal3, Point2, Point3, Ray, Transform, Vector3, error::offset_ray_origin};
 
 use crate::texture::TextureAt;
 
@@ -26,15 +26,33 @@ pub struct Surface {
 
 impl Surface {
     /// This surface of object space, placed by `m`; `reverse` turns the normals.
+    ///
+    /// The error bound covers the way here and the way back: a spawned ray is mapped into object space again before it
+    /// is intersected, which rounds its origin once more.
     #[must_use]
     pub fn placed(self, m: &Transform, reverse: bool) -> Self {
-        let (p, p_error) = m.point_with_error(self.p, self.p_error);
+        let (p, there) = m.point_with_error(self.p, self.p_error);
+        let (_, back) = m.inverse().point_with_error(p, Vector3::ZERO);
+        // NUMERICS: twice, because the coefficients of both matrices are rounded too
+        // (grazing_rays_never_meet_the_surface_they_leave).
+        let carried = back * 2.0;
+        let again = m.rows().map(|r| r[0].abs() * carried.x + r[1].abs() * carried.y + r[2].abs() * carried.z);
+        let p_error = there + Vector3::from(again);
         let turn = |n: Normal3| {
             let n = m.normal(n).normalize();
             if reverse { -n } else { n }
         };
         let (n_g, n_s) = (turn(self.n_g), turn(self.n_s));
         Self { p, p_error, n_g, n_s, dpdu: m.vector(self.dpdu), dpdv: m.vector(self.dpdv), ..self }
+    }
+    /// The same place with its normals turned.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        Self { n_g: -self.n_g, n_s: -self.n_s, ..self }
+    }
+    /// The frame that lobes live in: z is the shading normal, x lies nearest to `dpdu`.
+    pub fn frame(&self) -> Frame {
+        Frame::from_z_and_tangent(self.n_s, self.dpdu)
     }
     /// True if direction `w`, pointing away from the surface, lies on its outside.
     pub fn is_outside(&self, w: Vector3) -> bool {

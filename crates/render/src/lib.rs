@@ -1,1 +1,16 @@
-//! stub
+//! From a described scene to a film: compilation, light transport, probes, the film and the driver.
+//!
+//! Layers, top to bottom: `drive` knows films and threads; `integrator` knows scenes and probes, but no film, tile or
+//! file; `probe` only watches; `compile` turns a [`durer_scene::SceneDesc`] into a frozen [`Scene`].
+#![forbid(unsafe_code)]
+
+pub mod compile;
+pub mod drive;
+pub mod film;
+pub mod integrator;
+pub mod probe;
+mod sample;
+mod scene;
+
+pub use sample::{Contribution, PathRay, SampleCx, Value};
+pub use scene::{Object, Scene, View};

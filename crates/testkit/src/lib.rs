@@ -1,1 +1,12 @@
-//! stub
+//! Oracles for durer's tests: double-precision formulas that are written apart from the code they check.
+//!
+//! Nothing here is used when rendering. Directions are of unit length and point away from the surface unless said
+//! otherwise; in local frames z is the normal.
+#![forbid(unsafe_code)]
+
+pub mod interface;
+pub mod microfacet;
+pub mod quadrature;
+pub mod random;
+
+pub use glam::DVec3;

@@ -5,7 +5,7 @@
 mod gltf;
 pub mod pbrt;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use durer_scene::{Diagnostics, Limits, SceneDesc, Sources};
 
@@ -22,6 +22,18 @@ pub struct Imported {
     pub sources: Sources,
     /// Complaints.
     pub diagnostics: Diagnostics,
+}
+
+impl Imported {
+    /// An empty scene whose files lie below `folder`.
+    pub fn new(folder: PathBuf, limits: Limits) -> Self {
+        Self {
+            desc: SceneDesc::default(),
+            assets: FileAssets::new(folder, limits),
+            sources: Sources::default(),
+            diagnostics: Diagnostics::default(),
+        }
+    }
 }
 
 /// A scene file format.
@@ -44,12 +56,7 @@ pub const FORMATS: &[Format] = &[
 /// [`Imported::diagnostics`].
 pub fn open(path: &Path, limits: Limits) -> Imported {
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let mut imported = Imported {
-        desc: SceneDesc::default(),
-        assets: FileAssets::new(folder, limits),
-        sources: Sources::default(),
-        diagnostics: Diagnostics::default(),
-    };
+    let mut imported = Imported::new(folder, limits);
     imported.desc.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
     match FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())) {

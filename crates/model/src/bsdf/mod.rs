@@ -1,89 +1,112 @@
 //! How light scatters at a point: a closed set of lobes, returned by value.
 //!
 //! Directions `wo` (back along the ray) and `wi` (towards the light) point away from the surface and are of unit
-//! length, in a frame whose z axis is the shading normal; z > 0 is the outside.
+//! length, in a frame whose z axis is the shading normal; z > 0 is the outside. A lobe that is not transparent looks the
+//! same from both sides. A new lobe is one file here and one arm in each `match` of [`Lobe`].
+//!
+//! Lights are reflected through [`Bsdf::eval`]. What is not a light is seen through [`Bsdf::branches`] (rays are
+//! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
+
+mod branch;
+mod fresnel;
+mod ggx;
+mod glossy;
+mod highlight;
+mod interface;
+mod lobe;
+mod refract;
 
 use durer_core::{math::Vector3, spectrum::Spectrum};
 
-/// Kinds of scattering that rays are spawned for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BranchKind {
-    /// Mirror reflection.
-    Reflection,
-    /// Refraction, or passing straight on.
-    Transmission,
-}
-
-/// A direction of a perfectly sharp lobe.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Branch {
-    /// Which way.
-    pub kind: BranchKind,
-    /// Unit direction.
-    pub wi: Vector3,
-    /// What the radiance arriving from `wi` is multiplied with.
-    pub weight: Spectrum,
-}
-
-/// What happened to a lobe that yields no branch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blocked {
-    /// Total internal reflection: nothing is transmitted.
-    TotalInternalReflection,
-}
-
-/// The sharp directions of a [`Bsdf`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Branches {
-    list: [Option<Branch>; Bsdf::MOST_LOBES * 2],
-    /// Set if a lobe would have transmitted but reflects totally, with the weight that the transmitted ray would have had.
-    pub total_internal_reflection: Option<Spectrum>,
-}
-
-impl Branches {
-    /// The branches, reflections before transmissions of the same lobe.
-    pub fn iter(&self) -> impl Iterator<Item = &Branch> {
-        self.list.iter().flatten()
-    }
-}
-
-/// A glossy lobe as seen by an integrator that does not sample it: its main direction and how much it reflects.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GlossyView {
-    /// Mirror direction.
-    pub wi: Vector3,
-    /// Directional albedo.
-    pub weight: Spectrum,
-    /// GGX roughness.
-    pub alpha: f32,
-}
+pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use fresnel::{fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick};
+pub use glossy::Glossy;
+pub use highlight::Highlight;
+pub use interface::{Interface, Split};
+pub use lobe::Lobe;
+pub use refract::{reflect, refract};
 
 /// The lobes at one point.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Bsdf {}
+pub struct Bsdf {
+    lobes: [Option<Lobe>; Bsdf::MOST_LOBES],
+    count: usize,
+}
 
 impl Bsdf {
     /// Most lobes a material can return.
     pub const MOST_LOBES: usize = 4;
 
+    /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
+    #[must_use]
+    pub fn with(mut self, lobe: Lobe) -> Self {
+        debug_assert!(
+            self.count < Self::MOST_LOBES,
+            "a material returns more than {} lobes",
+            Self::MOST_LOBES
+        );
+        if let Some(place) = self.lobes.get_mut(self.count) {
+            *place = Some(lobe);
+            self.count += 1;
+        }
+        self
+    }
+    /// The lobes, in the order they were added.
+    pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
+        self.lobes.iter().flatten()
+    }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
-    pub fn eval(&self, _wo: Vector3, _wi: Vector3) -> Spectrum {
-        Spectrum::BLACK
+    pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
+        self.lobes()
+            .fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
     }
     /// Coefficient of the ambient term: diffuse albedo, or the ambient coefficient of a classic material.
     pub fn ambient(&self) -> Spectrum {
-        Spectrum::BLACK
+        let classic = |lobe: &Lobe| match lobe {
+            Lobe::Ambient { coefficient } => Some(*coefficient),
+            _ => None,
+        };
+        let diffuse = |lobe: &Lobe| match lobe {
+            Lobe::Diffuse { albedo } => Some(*albedo),
+            _ => None,
+        };
+        let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
+        own.unwrap_or_else(|| {
+            self.lobes()
+                .filter_map(diffuse)
+                .fold(Spectrum::BLACK, |a, b| a + b)
+        })
     }
-    /// The glossy lobe, if there is one.
-    pub fn glossy(&self, _wo: Vector3) -> Option<GlossyView> {
-        None
+    /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
+    /// one whose `alpha` is their weighted mean.
+    pub fn glossy(&self, wo: Vector3) -> Option<GlossyView> {
+        let views = self.lobes().filter_map(|lobe| match lobe {
+            Lobe::Glossy(glossy) => glossy.view(wo),
+            _ => None,
+        });
+        views.reduce(|a, b| {
+            let (wa, wb) = (a.weight.mean(), b.weight.mean());
+            let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
+            GlossyView {
+                wi: a.wi,
+                weight: a.weight + b.weight,
+                alpha,
+            }
+        })
     }
-    /// The perfectly sharp directions.
-    pub fn branches(&self, _wo: Vector3) -> Branches {
-        Branches::default()
+    /// The perfectly sharp directions, and those of nearly smooth glossy lobes (see [`Glossy`]).
+    pub fn branches(&self, wo: Vector3) -> Branches {
+        let mut branches = Branches::default();
+        for lobe in self.lobes() {
+            lobe.add_branches(wo, &mut branches);
+        }
+        branches
     }
-    /// The surface's own colour as people would name it: diffuse albedo, or the tint of what it reflects or transmits.
+    /// The surface's own colour as people would name it, at most 1: diffuse albedo plus the tint of what it reflects at
+    /// normal incidence or transmits.
     pub fn albedo(&self) -> Spectrum {
-        Spectrum::BLACK
+        self.lobes()
+            .fold(Spectrum::BLACK, |sum, lobe| sum + lobe.tint())
+            .map(|v| v.clamp(0.0, 1.0))
     }
 }

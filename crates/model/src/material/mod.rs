@@ -2,11 +2,21 @@
 //!
 //! A new material is one file here and one line in [`MATERIALS`].
 
+mod classic;
+mod dielectric;
+mod diffuse;
+mod mirror;
+mod normal_map;
+mod principled;
+
 use std::fmt::Debug;
 
 use durer_core::{math::Vector3, spectrum::Spectrum};
-use durer_scene::Entry;
+use durer_scene::{Args, ColorInput, Entry};
 
+pub use self::{
+    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, mirror::Mirror, principled::Principled,
+};
 use crate::{ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
 /// A material.
@@ -31,4 +41,38 @@ pub trait Material: Debug + Send + Sync {
 }
 
 /// All kinds of material.
-pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[];
+pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
+    Entry::of::<Diffuse>(),
+    Entry::of::<Mirror>(),
+    Entry::of::<Dielectric>(),
+    Entry::of::<Classic>(),
+    Entry::of::<Principled>(),
+];
+
+/// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
+pub const NOT_YET: &[(&str, &str)] = &[
+    ("conductor", "mirror"),
+    ("coateddiffuse", "diffuse"),
+    ("coatedconductor", "mirror"),
+    ("diffusetransmission", "diffuse"),
+    ("thindielectric", "dielectric"),
+    ("hair", "diffuse"),
+    ("measured", "diffuse"),
+    ("mix", "diffuse"),
+    ("subsurface", "diffuse"),
+    ("interface", "diffuse"),
+];
+
+/// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
+fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
+    cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
+}
+
+/// Warns about each of the parameters `names` that the file gives.
+fn warn_unsupported(args: &mut Args<'_>, names: &[&str]) {
+    for name in names {
+        if args.is_set(name) {
+            args.warning(name, format!("\"{name}\" is not supported yet and has no effect"));
+        }
+    }
+}

@@ -2,10 +2,22 @@
 //!
 //! A new shape is one file here and one line in [`SHAPES`].
 
-use std::fmt::Debug;
+mod disk;
+mod mesh;
+mod plane;
+pub mod polygon;
+mod sphere;
 
-use durer_core::math::{Bounds3, Ray};
+use std::{f32::consts::TAU, fmt::Debug};
+
+use durer_core::math::{Bounds3, Ray, float};
 use durer_scene::{Entry, Mesh};
+
+pub use disk::Disk;
+pub use mesh::{TriangleMesh, mesh_surface};
+pub use plane::Plane;
+pub use polygon::Polygon;
+pub use sphere::Sphere;
 
 use crate::Surface;
 
@@ -42,4 +54,21 @@ pub enum Geometry {
 }
 
 /// All kinds of shape.
-pub const SHAPES: &[Entry<Geometry>] = &[];
+pub const SHAPES: &[Entry<Geometry>] = &[
+    Entry::of::<Disk>(),
+    Entry::of::<Plane>(),
+    Entry::of::<Polygon>(),
+    Entry::of::<Sphere>(),
+    Entry::of::<TriangleMesh>(),
+];
+
+/// An angle in degrees, at most a full turn, in radians; 360 gives exactly [`TAU`].
+fn arc_angle(degrees: f32) -> f32 {
+    if degrees >= 360.0 { TAU } else { degrees.to_radians() }
+}
+
+/// Angle of `(x, y)` from the x axis towards y in `[0, TAU]`.
+fn azimuth(x: f32, y: f32) -> f32 {
+    let angle = float::atan2(y, x);
+    if angle < 0.0 { angle + TAU } else { angle.abs() }
+}

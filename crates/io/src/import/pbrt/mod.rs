@@ -1,7 +1,54 @@
-//! The pbrt-v4 scene language.
-use std::path::Path;
+//! The pbrt-v4 scene language (pbrt.org/fileformat-v4), with additions of ours: docs/pbrt-language.md.
+//!
+//! Text flows one way: [`files`] reads it, [`lexer`] cuts it into tokens, [`input`] and [`params`] read arguments,
+//! [`parser`] obeys directives ([`placing`], [`settings`], [`block`], [`nodes`]), [`world`] collects what they leave. Kinds and their
+//! parameters are checked later, against the registry of the model; only `Film` and `Sampler` are checked here.
 
+mod block;
+mod directive;
+mod files;
+mod film;
+mod input;
+mod lexer;
+mod nodes;
+mod number;
+mod params;
+mod parser;
+mod placing;
+mod settings;
+mod state;
+mod transform;
+mod world;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use self::{
+    files::{Files, Text},
+    parser::Parser,
+};
 use super::Imported;
+use durer_scene::Location;
 
 /// Reads the file at `path`.
-pub(super) fn read(_path: &Path, _imported: &mut Imported) {}
+pub(super) fn read(path: &Path, imported: &mut Imported) {
+    let Imported { desc, assets, sources, diagnostics } = imported;
+    if let Some((files, text)) = Files::main(path, assets.limits(), sources, diagnostics) {
+        Parser::new(text, files, desc, sources, diagnostics).run();
+    }
+}
+
+/// Reads a scene that is no file, such as a built-in one; `name` is what messages call it. It cannot include files.
+pub fn read_text(name: &str, text: &str, imported: &mut Imported) {
+    let text: Arc<str> = Arc::from(text);
+    let Imported { desc, assets, sources, diagnostics } = imported;
+    if !files::spans_fit(&text) {
+        diagnostics.error(Location::None, format!("{name}: larger than 4 GiB"));
+        return;
+    }
+    let source = sources.add(name, text.clone());
+    let text = Text { source, text, folder: None, path: PathBuf::new() };
+    Parser::new(text, Files::none(assets.limits()), desc, sources, diagnostics).run();
+}

@@ -1,0 +1,233 @@
+//! Where an instance is, at each moment.
+use durer_core::glam::{DAffine3, DMat3};
+use durer_core::math::{Bounds3, Motion, Ray, Transform, float};
+
+use crate::BuildError;
+
+/// How a geometry is placed in render space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Placement {
+    /// Object space is render space: rays are not transformed at all.
+    Identity,
+    /// The same `render_from_object` at all times.
+    Still(Transform),
+    /// `(seconds, render_from_object)` with strictly rising times. Between keys the matrix elements move linearly, so
+    /// every point moves on a straight line; before the first and after the last key the placement is held. Where an
+    /// interpolated matrix is singular (keys half a turn apart, say) the instance is not hit.
+    Moving(Vec<(f32, Transform)>),
+}
+
+/// Rotation within one linear segment: the matrix is at most 1 - cos(1 degree) = 0.00015 off the arc.
+const SEGMENT_DEGREES: f32 = 2.0;
+/// Bounds the memory of one pair of keys: a half turn needs 90.
+const SEGMENTS_MAX: f32 = 256.0;
+
+impl Placement {
+    /// The same motion in linear pieces of at most 2 degrees of rotation each. Translation and scale alone stay one
+    /// piece per pair of keys.
+    pub fn from_motion(motion: &Motion) -> Self {
+        let keys = motion.keys();
+        if motion.is_still() {
+            let still = Transform::from_f64(&keys[0].1);
+            return if still == Transform::IDENTITY {
+                Self::Identity
+            } else {
+                Self::Still(still)
+            };
+        }
+        let mut refined: Vec<(f32, Transform)> = Vec::new();
+        let mut push = |time: f64, m: &DAffine3| {
+            let key = (time as f32, Transform::from_f64(m));
+            // Keys closer than f32 can tell apart: the later one holds.
+            match refined.last_mut() {
+                Some(last) if last.0 >= key.0 => *last = key,
+                _ => refined.push(key),
+            }
+        };
+        push(keys[0].0, &keys[0].1);
+        for pair in keys.windows(2) {
+            let (t0, t1) = (pair[0].0, pair[1].0);
+            let n = segments(&pair[0].1, &pair[1].1);
+            for i in 1..n {
+                let time = t0 + (t1 - t0) * f64::from(i) / f64::from(n);
+                push(time, &motion.at(time));
+            }
+            push(t1, &pair[1].1);
+        }
+        match refined.as_slice() {
+            [(_, only)] => Self::Still(*only),
+            _ => Self::Moving(refined),
+        }
+    }
+}
+
+/// Linear segments needed between two keys.
+fn segments(a: &DAffine3, b: &DAffine3) -> u32 {
+    let (_, r0, _) = a.to_scale_rotation_translation();
+    let (_, r1, _) = b.to_scale_rotation_translation();
+    let half_cosine = r0.dot(r1).abs().min(1.0) as f32;
+    let degrees = (2.0 * float::acos(half_cosine)).to_degrees();
+    // `as` turns NaN (a singular key, refused later) into 0.
+    (degrees / SEGMENT_DEGREES).ceil().clamp(1.0, SEGMENTS_MAX) as u32
+}
+
+/// A placement checked and made ready for rays.
+#[derive(Clone, Debug)]
+pub(crate) enum Pose {
+    Identity,
+    Still(Transform),
+    Moving(Vec<(f32, DAffine3)>),
+}
+
+impl Pose {
+    /// Checks `placement` for what will be instance number `instance`.
+    pub(crate) fn new(placement: Placement, instance: usize) -> Result<Self, BuildError> {
+        let invertible = |key: usize, m: &Transform| {
+            if m.is_invertible() {
+                Ok(())
+            } else {
+                Err(BuildError::TransformSingular { instance, key })
+            }
+        };
+        match placement {
+            Placement::Identity => Ok(Self::Identity),
+            Placement::Still(m) if m == Transform::IDENTITY => Ok(Self::Identity),
+            Placement::Still(m) => invertible(0, &m).map(|()| Self::Still(m)),
+            Placement::Moving(keys) => {
+                let rises = |key: usize| key == 0 || keys[key - 1].0 < keys[key].0;
+                for (key, (time, m)) in keys.iter().enumerate() {
+                    if !time.is_finite() || !rises(key) {
+                        return Err(BuildError::MotionKeyInvalid { instance, key });
+                    }
+                    invertible(key, m)?;
+                }
+                match keys.as_slice() {
+                    [] => Err(BuildError::MotionKeyInvalid { instance, key: 0 }),
+                    [(_, only)] => Self::new(Placement::Still(*only), instance),
+                    _ => Ok(Self::Moving(keys.iter().map(|(t, m)| (*t, m.to_f64())).collect())),
+                }
+            }
+        }
+    }
+
+    /// `render_from_object` at `time` seconds; `None` stands for the identity.
+    pub(crate) fn at(&self, time: f32) -> Option<Transform> {
+        match self {
+            Self::Identity => None,
+            Self::Still(m) => Some(*m),
+            Self::Moving(keys) => Some(Transform::from_f64(&interpolate(keys, time))),
+        }
+    }
+    /// `ray` in object space; `None` stands for the identity.
+    pub(crate) fn object_ray(&self, ray: &Ray) -> Option<Ray> {
+        self.at(ray.time).map(|m| m.inverse().ray(ray))
+    }
+    /// Box around everything an object inside `b` sweeps.
+    pub(crate) fn bounds(&self, b: &Bounds3) -> Bounds3 {
+        if b.is_empty() {
+            return *b;
+        }
+        // A half-infinite box turned is no box, and one that overflows has lost its far side.
+        let of = |m: &Transform| {
+            let mapped = m.bounds(b);
+            if b.is_finite() && mapped.is_finite() {
+                mapped
+            } else {
+                Bounds3::UNBOUNDED
+            }
+        };
+        match self {
+            Self::Identity => *b,
+            Self::Still(m) => of(m),
+            Self::Moving(keys) => keys
+                .iter()
+                .fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&k.1)))),
+        }
+    }
+    /// Heap memory held.
+    pub(crate) fn bytes(&self) -> usize {
+        match self {
+            Self::Moving(keys) => std::mem::size_of_val(keys.as_slice()),
+            _ => 0,
+        }
+    }
+}
+
+/// Element by element between the keys around `time`; f64 so that the inverse keeps f32 accuracy.
+fn interpolate(keys: &[(f32, DAffine3)], time: f32) -> DAffine3 {
+    let after = keys.partition_point(|k| k.0 <= time);
+    if after == 0 {
+        return keys[0].1;
+    }
+    let (t0, a) = &keys[after - 1];
+    let Some((t1, b)) = keys.get(after) else { return *a };
+    let u = f64::from(time - t0) / f64::from(t1 - t0);
+    let (m, n) = (&a.matrix3, &b.matrix3);
+    DAffine3 {
+        matrix3: DMat3::from_cols(
+            m.x_axis.lerp(n.x_axis, u),
+            m.y_axis.lerp(n.y_axis, u),
+            m.z_axis.lerp(n.z_axis, u),
+        ),
+        translation: a.translation.lerp(b.translation, u),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_core::glam::{DQuat, DVec3};
+
+    #[test]
+    fn a_turn_is_refined_and_a_shift_is_not() {
+        let keyed = |b: DAffine3| {
+            let motion = Motion::keyed(vec![(0.0, DAffine3::IDENTITY), (1.0, b)]).expect("valid keys");
+            match Placement::from_motion(&motion) {
+                Placement::Moving(keys) => keys,
+                other => panic!("{other:?} does not move"),
+            }
+        };
+        assert_eq!(keyed(DAffine3::from_translation(DVec3::X)).len(), 2);
+        assert_eq!(keyed(DAffine3::from_scale(DVec3::new(2.0, 3.0, 4.0))).len(), 2);
+        let quarter = keyed(DAffine3::from_quat(DQuat::from_rotation_z(
+            std::f64::consts::FRAC_PI_2,
+        )));
+        assert!((45..=47).contains(&quarter.len()), "{}", quarter.len());
+    }
+
+    #[test]
+    fn the_pieces_follow_the_motion() {
+        let b = DAffine3::from_scale_rotation_translation(
+            DVec3::new(1.0, 2.0, 0.5),
+            DQuat::from_rotation_y(3.0),
+            DVec3::new(4.0, 0.0, -1.0),
+        );
+        let motion = Motion::keyed(vec![(1.0, DAffine3::IDENTITY), (2.0, b)]).expect("valid keys");
+        let pose = Pose::new(Placement::from_motion(&motion), 0).expect("valid placement");
+        for i in 0..=100 {
+            let time = 0.9 + 1.2 * i as f32 / 100.0;
+            let m = pose.at(time).expect("moves").to_f64();
+            let p = DVec3::new(0.3, -0.7, 0.9);
+            let off = m.transform_point3(p) - motion.at(time.into()).transform_point3(p);
+            assert!(off.length() < 5e-4, "{off} at {time}");
+        }
+    }
+
+    #[test]
+    fn stillness_and_identity_are_recognised() {
+        assert_eq!(
+            Placement::from_motion(&Motion::still(DAffine3::IDENTITY)),
+            Placement::Identity
+        );
+        let shift = DAffine3::from_translation(DVec3::X);
+        assert!(matches!(
+            Placement::from_motion(&Motion::still(shift)),
+            Placement::Still(_)
+        ));
+        let close = Motion::keyed(vec![(1.0, DAffine3::IDENTITY), (1.0 + 1e-12, shift)]).expect("valid keys");
+        assert_eq!(
+            Placement::from_motion(&close),
+            Placement::Still(Transform::from_f64(&shift))
+        );
+    }
+}

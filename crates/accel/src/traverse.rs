@@ -1,0 +1,245 @@
+//! What happens in the leaves of both levels: instances enter their geometry, primitives are tested.
+use std::ops::Range;
+
+use durer_core::math::{Bounds3, Ray};
+
+use crate::{
+    Accel, Engine, Hit, PrimitiveHit, TraversalProbe, UserGeometry,
+    accel::Instance,
+    geometry::{Geometry, Items, LeafBox, LeafTriangle},
+    slab::Window,
+    space::Space,
+    tree::{Leaves, Span},
+    triangle,
+};
+
+/// The caller's side of a query.
+pub(crate) struct Query<'a, U, P: TraversalProbe> {
+    pub(crate) user: &'a U,
+    pub(crate) probe: &'a mut P,
+    pub(crate) id: P::Id,
+}
+
+/// Leaves that hold instances.
+pub(crate) struct TopLevel<'a, U, P: TraversalProbe> {
+    pub(crate) accel: &'a Accel,
+    pub(crate) query: Query<'a, U, P>,
+    /// The ray in render space.
+    pub(crate) world: &'a Space,
+}
+
+/// Leaves that hold primitives of one instance.
+struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
+    geometry: &'a Geometry,
+    query: &'a mut Query<'q, U, P>,
+    instance: u32,
+    /// Where the ray enters the instance's box.
+    near: f32,
+    /// The ray in object space.
+    space: &'a Space,
+    /// Test everything, whatever was found.
+    exhaustive: bool,
+}
+
+impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
+    /// Runs `visit` with the ray in the object space of instance `index`.
+    fn enter<R>(
+        &mut self,
+        index: u32,
+        instance: &Instance,
+        near: f32,
+        visit: impl FnOnce(&Geometry, &Space, &mut BottomLevel<'_, '_, U, P>) -> R,
+    ) -> Option<R> {
+        let geometry = &self.accel.geometries[instance.geometry.index()];
+        let transformed;
+        let space = match instance.pose.object_ray(&self.world.ray) {
+            None => self.world,
+            Some(ray) => {
+                transformed = Space::new(&ray, &geometry.finite)?;
+                &transformed
+            }
+        };
+        let exhaustive = self.accel.engine == Engine::BruteForce;
+        let query = &mut self.query;
+        Some(visit(
+            geometry,
+            space,
+            &mut BottomLevel {
+                geometry,
+                query,
+                instance: index,
+                near,
+                space,
+                exhaustive,
+            },
+        ))
+    }
+}
+
+impl<U: UserGeometry, P: TraversalProbe> Leaves for TopLevel<'_, U, P> {
+    #[inline]
+    fn node(&mut self, node: u32) {
+        self.query.probe.node(self.query.id, node);
+    }
+
+    fn nearest(&mut self, items: Range<usize>, best: &mut Hit) {
+        let accel = self.accel;
+        let t_min = self.world.ray.t_min;
+        for &index in &accel.order[items] {
+            let instance = &accel.instances[index as usize];
+            let window = self.world.slab.window_of(&instance.bounds);
+            let admitted = window.admits(t_min, best.t);
+            if !admitted && accel.engine == Engine::Bvh {
+                continue;
+            }
+            // Brute force tests what the box excludes too, and forgets the result.
+            let mut ignored = *best;
+            let target = if admitted { &mut *best } else { &mut ignored };
+            self.enter(index, instance, window.near, |geometry, space, leaves| {
+                geometry.tree.nearest(&space.slab, t_min, target, leaves);
+            });
+        }
+    }
+
+    fn blocks(&mut self, items: Range<usize>) -> bool {
+        let accel = self.accel;
+        let Ray { t_min, t_max, .. } = self.world.ray;
+        let mut blocked = false;
+        for &index in &accel.order[items] {
+            let instance = &accel.instances[index as usize];
+            let window = self.world.slab.window_of(&instance.bounds);
+            let admitted = window.admits(t_min, t_max);
+            if !admitted && accel.engine == Engine::Bvh {
+                continue;
+            }
+            let hit = self.enter(index, instance, window.near, |geometry, space, leaves| {
+                geometry.tree.blocks(&space.slab, Span { t_min, t_max }, leaves)
+            });
+            blocked |= admitted && hit == Some(true);
+            if blocked && accel.engine == Engine::Bvh {
+                return true;
+            }
+        }
+        blocked
+    }
+}
+
+impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
+    /// The `t` a hit at `t` counts with: not before the ray enters the boxes (see the crate's contract). `None` if that
+    /// leaves `[t_min, t_max]`.
+    #[inline]
+    fn admit(&self, t: f32, window: Window, t_max: f32) -> Option<f32> {
+        let t_min = self.space.ray.t_min;
+        let raised = t.max(window.near).max(self.near);
+        let valid = window.admits(t_min, t_max) && t >= t_min && raised <= t_max;
+        valid.then_some(raised)
+    }
+
+    #[inline]
+    fn triangle(&mut self, leaf: &LeafTriangle, t_max: f32) -> Option<Hit> {
+        self.query
+            .probe
+            .primitive(self.query.id, self.instance, leaf.prim);
+        let found = triangle::intersect(&self.space.shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
+        let [_, u, v] = found.weights;
+        self.hit(
+            leaf.prim,
+            PrimitiveHit { t: found.t, u, v },
+            &leaf.bounds(),
+            t_max,
+        )
+    }
+
+    fn user(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Hit> {
+        let ray = self.user_ray(leaf, t_max)?;
+        let found = self.query.user.intersect(self.instance, leaf.prim, &ray)?;
+        self.hit(leaf.prim, found, &leaf.bounds, t_max)
+    }
+
+    fn user_blocks(&mut self, leaf: &LeafBox) -> bool {
+        let Ray { t_min, t_max, .. } = self.space.ray;
+        let Some(ray) = self.user_ray(leaf, t_max) else {
+            return false;
+        };
+        let occluded = self.query.user.occludes(self.instance, leaf.prim, &ray);
+        let window = self.space.slab.window_of(&leaf.bounds);
+        occluded && window.admits(t_min, t_max) && self.near <= t_max
+    }
+
+    /// What the callback gets; `None` if the box already says no.
+    fn user_ray(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Ray> {
+        let window = self.space.slab.window_of(&leaf.bounds);
+        if !self.exhaustive && !window.admits(self.space.ray.t_min, t_max) {
+            return None;
+        }
+        self.query
+            .probe
+            .primitive(self.query.id, self.instance, leaf.prim);
+        Some(Ray {
+            t_max,
+            ..self.space.ray
+        })
+    }
+
+    fn hit(&self, prim: u32, found: PrimitiveHit, bounds: &Bounds3, t_max: f32) -> Option<Hit> {
+        let t = self.admit(found.t, self.space.slab.window_of(bounds), t_max)?;
+        Some(Hit {
+            t,
+            instance: self.instance,
+            prim,
+            u: found.u,
+            v: found.v,
+        })
+    }
+
+    /// Whether `test` finds a hit on any item; brute force looks at all of them.
+    #[inline]
+    fn some<T>(&mut self, items: &[T], mut test: impl FnMut(&mut Self, &T) -> bool) -> bool {
+        let mut blocked = false;
+        for item in items {
+            blocked |= test(self, item);
+            if blocked && !self.exhaustive {
+                return true;
+            }
+        }
+        blocked
+    }
+}
+
+impl<U: UserGeometry, P: TraversalProbe> Leaves for BottomLevel<'_, '_, U, P> {
+    #[inline]
+    fn node(&mut self, node: u32) {
+        self.query.probe.node(self.query.id, node);
+    }
+
+    #[inline]
+    fn nearest(&mut self, items: Range<usize>, best: &mut Hit) {
+        match &self.geometry.items {
+            Items::Triangles { leaves, .. } => {
+                for leaf in &leaves[items] {
+                    if let Some(hit) = self.triangle(leaf, best.t) {
+                        best.offer(hit);
+                    }
+                }
+            }
+            Items::Boxes(leaves) => {
+                for leaf in &leaves[items] {
+                    if let Some(hit) = self.user(leaf, best.t) {
+                        best.offer(hit);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn blocks(&mut self, items: Range<usize>) -> bool {
+        let t_max = self.space.ray.t_max;
+        match &self.geometry.items {
+            Items::Triangles { leaves, .. } => self.some(&leaves[items], |level, leaf| {
+                level.triangle(leaf, t_max).is_some()
+            }),
+            Items::Boxes(leaves) => self.some(&leaves[items], Self::user_blocks),
+        }
+    }
+}

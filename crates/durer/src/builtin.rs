@@ -1,0 +1,53 @@
+//! The scenes in the binary: `.pbrt` files of our own.
+//!
+//! A new one is one file in `scenes/` and one line in [`SCENES`].
+
+use durer_io::import::{Imported, pbrt};
+
+/// A scene in the binary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Builtin {
+    /// What the command line calls it.
+    pub name: &'static str,
+    /// One line about it.
+    pub doc: &'static str,
+    /// The scene file.
+    pub text: &'static str,
+}
+
+/// All of them; the first is the default.
+pub const SCENES: &[Builtin] = &[Builtin {
+    name: "whitted",
+    doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
+    text: include_str!("../scenes/whitted.pbrt"),
+}];
+
+/// The built-in scene of this name.
+pub fn find(name: &str) -> Option<&'static Builtin> {
+    SCENES.iter().find(|s| s.name == name)
+}
+
+impl Builtin {
+    /// Parses it.
+    pub fn import(&self) -> Imported {
+        let mut imported = Imported::new("".into(), Default::default());
+        imported.desc.name = self.name.to_owned();
+        pbrt::read_text(&format!("{}.pbrt", self.name), self.text, &mut imported);
+        imported
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Options, prepare};
+
+    #[test]
+    fn every_scene_prepares_without_complaint() {
+        for scene in SCENES {
+            let mut imported = scene.import();
+            assert!(prepare(&mut imported, &Options::default()).is_some(), "{}", scene.name);
+            assert!(imported.diagnostics.is_empty(), "{}: {:?}", scene.name, imported.diagnostics);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! What a user may ask for beyond what the scene says.
+use durer_accel::Engine;
+use durer_core::math::Interval;
+use durer_render::{film::Tile, integrator::Show};
+use durer_scene::Missing;
+
+/// Wishes; `None` leaves the choice to the scene, then to the defaults.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Light transport, by its registered word.
+    pub integrator: Option<String>,
+    /// What `cast` shows.
+    pub show: Option<Show>,
+    /// Pixels per row. If only one of width and height is given the other follows the scene's aspect ratio.
+    pub width: Option<u32>,
+    /// Rows.
+    pub height: Option<u32>,
+    /// Factor on width and height.
+    pub scale: Option<f32>,
+    /// Samples per pixel.
+    pub samples: Option<u32>,
+    /// Bounces traced at most.
+    pub max_depth: Option<u32>,
+    /// Stop when a branch's share in the pixel is at or below this.
+    pub min_contribution: Option<f32>,
+    /// Camera, by name or index.
+    pub camera: Option<String>,
+    /// The part of the picture that is rendered.
+    pub crop: Option<Tile>,
+    /// The moment of the picture, in seconds.
+    pub time: f32,
+    /// Shutter opening and closing, in seconds after `time`.
+    pub shutter: Option<Interval>,
+    /// Hierarchy or brute force.
+    pub engine: Engine,
+    /// Changes every random number.
+    pub seed: u64,
+    /// Worker threads; all cores if `None`.
+    pub threads: Option<usize>,
+    /// What becomes of missing images.
+    pub missing: Missing,
+}

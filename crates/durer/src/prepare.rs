@@ -1,0 +1,156 @@
+//! A description and wishes to something that renders.
+use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_io::import::Imported;
+use durer_render::{
+    Scene,
+    compile::{self, CompileOptions},
+    drive::{Job, Settings},
+    integrator::{Integrator, Output, Show},
+};
+use durer_scene::{Data, Diagnostics, Location, Node, Param, SceneDesc, ValueType};
+
+use crate::Options;
+
+/// Pixels of a picture whose size nobody asked for.
+const DEFAULT_SIZE: (u32, u32) = (1280, 720);
+/// Samples per pixel if nobody asked for a number.
+const DEFAULT_SAMPLES: u32 = 64;
+/// Most pixels along an edge: pictures beyond are typing errors.
+const LARGEST_EDGE: u32 = 1 << 16;
+
+/// A compiled scene with light transport and settings.
+pub struct Prepared {
+    /// The scene.
+    pub scene: Scene,
+    /// Light transport.
+    pub integrator: Box<dyn Integrator>,
+    /// The integrator's registered word.
+    pub integrator_name: String,
+    /// Samples, seed, threads.
+    pub settings: Settings,
+}
+
+impl Prepared {
+    /// What the driver takes.
+    pub fn job(&self) -> Job<'_> {
+        Job { scene: &self.scene, integrator: &*self.integrator, settings: self.settings }
+    }
+}
+
+/// Compiles a scene; `None` if [`Imported::diagnostics`] holds an error, be it of import or of compilation.
+pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
+    let Imported { desc, assets, diagnostics, .. } = imported;
+    if diagnostics.has_errors() {
+        return None;
+    }
+    let integrator_node = integrator_node(desc, options, diagnostics);
+    let integrator = compile::integrator(&integrator_node, diagnostics);
+    let size = picture_size(desc, options, diagnostics);
+    let shutter = options.shutter.unwrap_or(Interval::point(0.0));
+    let shutter = Interval::new(options.time + shutter.min, options.time + shutter.max);
+    let (width, height) = size.unwrap_or(DEFAULT_SIZE);
+    let compile_options = CompileOptions {
+        engine: options.engine,
+        missing: options.missing,
+        camera: options.camera.clone(),
+        shutter,
+        ..CompileOptions::new(width, height)
+    };
+    let scene = compile::compile(desc, &*assets, &compile_options, diagnostics);
+    let (scene, integrator) = (scene?, integrator?);
+    size?;
+    let settings = Settings {
+        samples: samples(desc, options, integrator.output(), diagnostics),
+        sampler: sampler(desc),
+        seed: options.seed,
+        threads: options.threads.unwrap_or_else(all_cores),
+        shutter,
+        crop: options.crop,
+    };
+    Some(Prepared { scene, integrator, integrator_name: integrator_node.kind, settings })
+}
+
+/// The integrator the options ask for, else the scene's, else the default; with the options' limits put in.
+fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Node {
+    let of_scene = desc.integrator.clone();
+    let mut node = match (&options.integrator, of_scene) {
+        (Some(kind), Some(node)) if node.kind == *kind => node,
+        (Some(kind), _) => Node::new(kind, durer_scene::Params::new()),
+        (None, Some(node)) => node,
+        (None, None) => compile::default_integrator(),
+    };
+    let mut set = |name: &str, ty: ValueType, data: Data| {
+        node.params.set(Param { name: name.to_owned(), ty, data, at: Location::None });
+    };
+    if node.kind == "cast" {
+        if let Some(show) = options.show {
+            set("show", ValueType::String, Data::Strings(vec![show.word().to_owned()]));
+        }
+        if options.max_depth.is_some() || options.min_contribution.is_some() {
+            diagnostics.warning(Location::None, "cast follows no ray: depth and contribution limits change nothing");
+        }
+        return node;
+    }
+    if let Some(depth) = options.max_depth {
+        set("maxdepth", ValueType::Integer, Data::Ints(vec![depth.min(i32::MAX as u32) as i32]));
+    }
+    if let Some(cut) = options.min_contribution {
+        set("mincontribution", ValueType::Float, Data::Floats(vec![cut]));
+    }
+    if options.show.is_some() {
+        let message = "what is shown of a hit concerns the integrator \"cast\" only";
+        diagnostics.warning(Location::None, message).hint("add --integrator cast");
+    }
+    node
+}
+
+fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Option<(u32, u32)> {
+    let scene = (
+        desc.film.width.unwrap_or(DEFAULT_SIZE.0),
+        desc.film.height.unwrap_or(DEFAULT_SIZE.1),
+    );
+    let aspect = f64::from(scene.0) / f64::from(scene.1.max(1));
+    let (width, height) = match (options.width, options.height) {
+        (Some(w), Some(h)) => (w, h),
+        (Some(w), None) => (w, (f64::from(w) / aspect).round() as u32),
+        (None, Some(h)) => ((f64::from(h) * aspect).round() as u32, h),
+        (None, None) => scene,
+    };
+    let scaled = |v: u32| match options.scale {
+        Some(scale) => (f64::from(v) * f64::from(scale)).round() as u32,
+        None => v,
+    };
+    let size = (scaled(width), scaled(height));
+    if size.0 == 0 || size.1 == 0 || size.0 > LARGEST_EDGE || size.1 > LARGEST_EDGE {
+        let message = format!("a picture of {} x {} pixels cannot be rendered", size.0, size.1);
+        diagnostics.error(Location::None, message).hint(format!("each edge may have 1 to {LARGEST_EDGE} pixels"));
+        return None;
+    }
+    Some(size)
+}
+
+/// Averages of object numbers mean nothing, and a mean depth little: data pictures take one sample unless told.
+fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mut Diagnostics) -> u32 {
+    let asked = options.samples.map(|n| n.max(1));
+    match output {
+        Output::Data(Show::Id) => {
+            if asked.is_some_and(|n| n > 1) {
+                diagnostics.warning(Location::None, "object ids cannot be averaged: one sample per pixel is taken");
+            }
+            1
+        }
+        Output::Data(_) => asked.unwrap_or(1),
+        Output::Radiance => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
+    }
+}
+
+fn sampler(desc: &SceneDesc) -> SamplerKind {
+    match desc.sampler.as_ref().map(|n| n.kind.as_str()) {
+        Some("independent") => SamplerKind::Independent,
+        _ => SamplerKind::Sobol,
+    }
+}
+
+fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get())
+}

@@ -1,0 +1,246 @@
+//! Accessors: typed arrays in buffer views. Every range is checked before the first byte is read.
+use super::{
+    buffer::Buffers,
+    document::Document,
+    element::{Checked, Element},
+};
+
+/// The type of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    fn parse(element: &Element<'_>) -> Checked<Self> {
+        Ok(match element.index()? {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            other => {
+                let message = format!("expected 5120, 5121, 5122, 5123, 5125 or 5126, found {other}");
+                return Err(element.fault(message));
+            }
+        })
+    }
+    const fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+}
+
+/// Elements at equal distances.
+#[derive(Clone, Copy)]
+struct Strided<'b> {
+    bytes: &'b [u8],
+    stride: usize,
+}
+
+/// Elements that replace others.
+struct Sparse<'b, 'a> {
+    places: Strided<'b>,
+    place_type: Component,
+    count: usize,
+    values: Strided<'b>,
+    element: Element<'a>,
+}
+
+/// A typed array whose ranges were checked.
+pub(super) struct Accessor<'b, 'a> {
+    /// Where it is described.
+    pub(super) element: Element<'a>,
+    /// Number of elements.
+    pub(super) count: usize,
+    /// Numbers per element.
+    pub(super) lanes: usize,
+    component: Component,
+    normalized: bool,
+    base: Option<Strided<'b>>,
+    sparse: Option<Sparse<'b, 'a>>,
+}
+
+/// `count` elements of `size` bytes in the view that the member `bufferView` of `from` names.
+fn strided<'b, 'a>(
+    document: &Document<'a>,
+    buffers: &'b Buffers<'a>,
+    from: &Element<'a>,
+    count: usize,
+    size: usize,
+) -> Checked<Strided<'b>> {
+    let reference = from.required("bufferView")?;
+    let view = buffers.view(document, &reference)?;
+    let start = from.index_or("byteOffset", 0)?;
+    let stride = view.stride.unwrap_or(size);
+    if stride < size {
+        let message = format!("/byteStride {stride} is less than the {size} bytes of an element");
+        return Err(view.element.fault(message));
+    }
+    let reach = count.saturating_sub(1).checked_mul(stride).and_then(|b| b.checked_add(size + start));
+    match (reach, view.bytes.get(start..)) {
+        (Some(reach), Some(bytes)) if reach <= view.bytes.len() => Ok(Strided { bytes, stride }),
+        _ => {
+            let (have, at) = (view.bytes.len(), view.element.pointer());
+            let message = format!("{count} elements of {stride} bytes from byte {start} do not fit {at}, \
+                                   which has {have} bytes");
+            Err(from.fault(message))
+        }
+    }
+}
+
+impl<'b, 'a> Accessor<'b, 'a> {
+    /// The accessor that `reference` names by index.
+    pub(super) fn open(
+        document: &Document<'a>,
+        buffers: &'b Buffers<'a>,
+        reference: &Element<'a>,
+    ) -> Checked<Self> {
+        let element = document.item("accessors", reference)?;
+        let component = Component::parse(&element.required("componentType")?)?;
+        let shape = element.required("type")?;
+        let lanes = match shape.text()? {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            other => {
+                let message = format!("expected SCALAR, VEC2, VEC3 or VEC4, found \"{other}\"");
+                return Err(shape.fault(message));
+            }
+        };
+        let count = element.required("count")?.index()?;
+        let size = lanes * component.size();
+        let base = match element.get("bufferView")? {
+            Some(_) => Some(strided(document, buffers, &element, count, size)?),
+            None => None,
+        };
+        let sparse = match element.get("sparse")? {
+            Some(sparse) => Some(Sparse::open(document, buffers, sparse, count, size)?),
+            None => None,
+        };
+        let normalized = element.flag("normalized")?;
+        Ok(Self { element, count, lanes, component, normalized, base, sparse })
+    }
+
+    /// All elements, or those that `which` names, as floats; normalised integers become fractions of 1. The accessor
+    /// must have `N` lanes.
+    pub(super) fn floats<const N: usize>(
+        &self,
+        document: &Document<'a>,
+        which: Option<&[u32]>,
+    ) -> Checked<Vec<[f32; N]>> {
+        let scale = |most: f32| if self.normalized { 1.0 / most } else { 1.0 };
+        let (s8, s16) = (scale(127.0), scale(32767.0));
+        let (u8s, u16s, u32s) = (scale(255.0), scale(65535.0), scale(u32::MAX as f32));
+        // The most negative integer is a little less than -1 (glTF 2.0, section 3.6.2.2).
+        let floor = if self.normalized { -1.0 } else { f32::MIN };
+        let n = (document, which);
+        match self.component {
+            Component::I8 => self.gather(n, |[b]: [u8; 1]| (f32::from(b as i8) * s8).max(floor)),
+            Component::U8 => self.gather(n, |[b]: [u8; 1]| f32::from(b) * u8s),
+            Component::I16 => {
+                self.gather(n, |b: [u8; 2]| (f32::from(i16::from_le_bytes(b)) * s16).max(floor))
+            }
+            Component::U16 => self.gather(n, |b: [u8; 2]| f32::from(u16::from_le_bytes(b)) * u16s),
+            Component::U32 => self.gather(n, |b: [u8; 4]| u32::from_le_bytes(b) as f32 * u32s),
+            Component::F32 => self.gather(n, f32::from_le_bytes),
+        }
+    }
+
+    /// All elements of an index accessor.
+    pub(super) fn indices(&self, document: &Document<'a>) -> Checked<Vec<u32>> {
+        let n = (document, None);
+        let rows: Vec<[u32; 1]> = match self.component {
+            Component::U8 => self.gather(n, |[b]: [u8; 1]| u32::from(b)),
+            Component::U16 => self.gather(n, |b: [u8; 2]| u32::from(u16::from_le_bytes(b))),
+            Component::U32 => self.gather(n, u32::from_le_bytes),
+            _ => Err(self.element.fault("indices must be unsigned integers")),
+        }?;
+        Ok(rows.into_iter().map(|[i]| i).collect())
+    }
+
+    fn gather<T: Copy + Default, const N: usize, const S: usize>(
+        &self,
+        (document, which): (&Document<'a>, Option<&[u32]>),
+        convert: impl Fn([u8; S]) -> T,
+    ) -> Checked<Vec<[T; N]>> {
+        if self.lanes != N {
+            let message = format!("expected {N} numbers per element, found {}", self.lanes);
+            return Err(self.element.fault(message));
+        }
+        if let (Some(sparse), Some(which)) = (&self.sparse, which) {
+            let _ = sparse;
+            let all = self.gather((document, None), convert)?;
+            return Ok(which.iter().filter_map(|&i| all.get(i as usize).copied()).collect());
+        }
+        let count = which.map_or(self.count, <[u32]>::len);
+        document.spend(&self.element, count, N * size_of::<T>())?;
+        let read = |source: Strided<'_>, i: usize| source.row(i).unwrap_or([[0; S]; N]).map(&convert);
+        let mut rows: Vec<[T; N]> = match (self.base, which) {
+            (None, _) => vec![[T::default(); N]; count],
+            (Some(base), None) => (0..self.count).map(|i| read(base, i)).collect(),
+            (Some(base), Some(which)) => which.iter().map(|&i| read(base, i as usize)).collect(),
+        };
+        if let Some(sparse) = &self.sparse {
+            for i in 0..sparse.count {
+                let place = sparse.place(i);
+                let Some(row) = rows.get_mut(place) else {
+                    let message = format!("index {place} in a list of {} elements", self.count);
+                    return Err(sparse.element.fault(message));
+                };
+                *row = read(sparse.values, i);
+            }
+        }
+        Ok(rows)
+    }
+}
+
+impl Strided<'_> {
+    /// Element `i` as `N` numbers of `S` bytes; `None` beyond the end.
+    #[inline]
+    fn row<const N: usize, const S: usize>(&self, i: usize) -> Option<[[u8; S]; N]> {
+        let bytes = self.bytes.get(i * self.stride..)?.get(..N * S)?;
+        bytes.as_chunks::<S>().0.first_chunk::<N>().copied()
+    }
+}
+
+impl<'b, 'a> Sparse<'b, 'a> {
+    fn open(
+        document: &Document<'a>,
+        buffers: &'b Buffers<'a>,
+        element: Element<'a>,
+        most: usize,
+        size: usize,
+    ) -> Checked<Self> {
+        let count = element.required("count")?.index()?;
+        if count > most {
+            return Err(element.fault(format!("replaces {count} of {most} elements")));
+        }
+        let (indices, values) = (element.required("indices")?, element.required("values")?);
+        let kind = indices.required("componentType")?;
+        let place_type = Component::parse(&kind)?;
+        if !matches!(place_type, Component::U8 | Component::U16 | Component::U32) {
+            return Err(kind.fault("indices must be unsigned integers"));
+        }
+        let places = strided(document, buffers, &indices, count, place_type.size())?;
+        let values = strided(document, buffers, &values, count, size)?;
+        Ok(Self { places, place_type, count, values, element: indices })
+    }
+    fn place(&self, i: usize) -> usize {
+        match self.place_type {
+            Component::U8 => self.places.row::<1, 1>(i).map_or(0, |[[b]]| usize::from(b)),
+            Component::U16 => self.places.row::<1, 2>(i).map_or(0, |[b]| usize::from(u16::from_le_bytes(b))),
+            _ => self.places.row::<1, 4>(i).map_or(0, |[b]| u32::from_le_bytes(b) as usize),
+        }
+    }
+}

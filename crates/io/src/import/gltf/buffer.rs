@@ -1,0 +1,126 @@
+//! Buffers: the binary chunk of a GLB, `data:` URIs and files; and views into them.
+use std::{borrow::Cow, sync::Arc};
+
+use base64::{
+    Engine, alphabet,
+    engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
+};
+use percent_encoding::percent_decode_str;
+
+use super::{
+    document::Document,
+    element::{Checked, Element},
+};
+use crate::FileAssets;
+
+/// Padding is often forgotten.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
+/// What a URI says.
+pub(super) enum Uri<'a> {
+    /// The bytes are in the URI itself.
+    Data(Vec<u8>),
+    /// A path relative to the scene file.
+    Path(Cow<'a, str>),
+}
+
+/// Reads a URI: `data:` is decoded, percent signs are resolved.
+pub(super) fn parse_uri<'a>(element: &Element<'a>) -> Checked<Uri<'a>> {
+    let uri = element.text()?;
+    let Some(rest) = uri.strip_prefix("data:") else {
+        if uri.split_once("://").is_some() {
+            return Err(element.fault("addresses of the web are not followed; expected a path beside the file"));
+        }
+        let path = percent_decode_str(uri).decode_utf8();
+        return path.map(Uri::Path).map_err(|_| element.fault("the percent-encoded path is not UTF-8"));
+    };
+    let (kind, data) = rest.split_once(',').ok_or_else(|| element.fault("a data: URI without comma"))?;
+    if !kind.ends_with(";base64") {
+        return Ok(Uri::Data(percent_decode_str(data).collect()));
+    }
+    let bytes = BASE64.decode(data).map_err(|e| element.fault(format!("not valid base64: {e}")))?;
+    Ok(Uri::Data(bytes))
+}
+
+enum Bytes<'a> {
+    Chunk(&'a [u8]),
+    Owned(Vec<u8>),
+    File(Arc<[u8]>),
+}
+
+impl Bytes<'_> {
+    fn as_slice(&self) -> &[u8] {
+        match self {
+            Self::Chunk(bytes) => bytes,
+            Self::Owned(bytes) => bytes,
+            Self::File(bytes) => bytes,
+        }
+    }
+}
+
+/// All buffers of a document.
+pub(super) struct Buffers<'a> {
+    list: Vec<Bytes<'a>>,
+}
+
+/// A stretch of a buffer.
+#[derive(Clone)]
+pub(super) struct View<'b, 'a> {
+    /// The stretch.
+    pub(super) bytes: &'b [u8],
+    /// Bytes from one element to the next, if the file says so.
+    pub(super) stride: Option<usize>,
+    /// Where it is described.
+    pub(super) element: Element<'a>,
+}
+
+impl<'a> Buffers<'a> {
+    /// Loads every buffer; `bin` is the binary chunk.
+    pub(super) fn load(document: &Document<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Self> {
+        let mut list = Vec::new();
+        for (index, element) in document.root.list("buffers")?.into_iter().enumerate() {
+            let bytes = load(&element, bin.filter(|_| index == 0), assets)?;
+            let length = element.required("byteLength")?;
+            let (wanted, found) = (length.index()?, bytes.as_slice().len());
+            if found < wanted {
+                return Err(length.fault(format!("{wanted} bytes announced, but the buffer has {found}")));
+            }
+            list.push(bytes);
+        }
+        Ok(Self { list })
+    }
+    /// Bytes of all buffers together.
+    pub(super) fn total(&self) -> u64 {
+        self.list.iter().map(|b| b.as_slice().len() as u64).sum()
+    }
+    /// The buffer view that `reference` names by index.
+    pub(super) fn view<'b>(&'b self, document: &Document<'a>, reference: &Element<'a>) -> Checked<View<'b, 'a>> {
+        let element = document.item("bufferViews", reference)?;
+        let buffer = element.required("buffer")?;
+        let length = document.item("buffers", &buffer)?.required("byteLength")?.index()?;
+        let bytes = self.list.get(buffer.index()?).map_or(&[][..], Bytes::as_slice);
+        let bytes = bytes.get(..length).unwrap_or(bytes);
+        let start = element.index_or("byteOffset", 0)?;
+        let size = element.required("byteLength")?.index()?;
+        let view = bytes.get(start..).and_then(|rest| rest.get(..size)).ok_or_else(|| {
+            let reach = start.saturating_add(size);
+            element.fault(format!("reaches to byte {reach}, but the buffer has {}", bytes.len()))
+        })?;
+        let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
+        Ok(View { bytes: view, stride, element })
+    }
+}
+
+fn load<'a>(element: &Element<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Bytes<'a>> {
+    let Some(uri) = element.get("uri")? else {
+        let missing = "expected \"uri\" or, for the first buffer of a .glb file, a binary chunk";
+        return bin.map(Bytes::Chunk).ok_or_else(|| element.fault(missing));
+    };
+    match parse_uri(&uri)? {
+        Uri::Data(bytes) => Ok(Bytes::Owned(bytes)),
+        Uri::Path(path) => assets.bytes(&path).map(Bytes::File).map_err(|e| uri.fault(e.to_string())),
+    }
+}

@@ -1,0 +1,54 @@
+//! The GLB container: a JSON chunk and at most one binary chunk (glTF 2.0 specification, section 4).
+
+/// `JSON` and `BIN\0` as little-endian numbers.
+const JSON: u32 = 0x4E4F_534A;
+const BIN: u32 = 0x004E_4942;
+
+/// What a file holds.
+pub(super) struct Chunks<'a> {
+    /// The document.
+    pub(super) json: &'a [u8],
+    /// The buffer without a URI.
+    pub(super) bin: Option<&'a [u8]>,
+}
+
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+}
+
+/// Splits a `.glb` file; anything that does not begin with `glTF` is taken for JSON alone, whatever its suffix.
+///
+/// # Errors
+/// Says what is wrong with the container.
+pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
+    if !bytes.starts_with(b"glTF") {
+        // glTF forbids a byte order mark, editors add it.
+        return Ok(Chunks { json: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), bin: None });
+    }
+    let header = word(bytes, 4).zip(word(bytes, 8));
+    let (version, length) = header.ok_or("GLB header: the file ends after the magic word")?;
+    if version != 2 {
+        return Err(format!("GLB container version {version}; durer reads version 2"));
+    }
+    let whole = bytes.get(..length as usize).ok_or_else(|| {
+        format!("GLB header: {length} bytes announced, but the file has {}", bytes.len())
+    })?;
+    let (mut json, mut bin) = (None, None);
+    let mut at = 12;
+    while at < whole.len() {
+        let (size, kind) =
+            word(whole, at).zip(word(whole, at + 4)).ok_or("GLB chunk header: the file ends within it")?;
+        let data = whole.get(at + 8..).and_then(|rest| rest.get(..size as usize)).ok_or_else(|| {
+            format!("GLB chunk at byte {at}: {size} bytes announced, but the file ends before")
+        })?;
+        match kind {
+            JSON if at == 12 => json = Some(data),
+            _ if at == 12 => return Err("the first GLB chunk must be of type JSON".to_owned()),
+            BIN if bin.is_none() => bin = Some(data),
+            // Chunks of unknown types are to be skipped.
+            _ => {}
+        }
+        at += 8 + size as usize;
+    }
+    Ok(Chunks { json: json.ok_or("a GLB file without JSON chunk")?, bin })
+}

@@ -1,0 +1,99 @@
+//! The parsed file: references between its lists, complaints, and the budget of what it may unpack to.
+use std::{
+    cell::{Cell, RefCell},
+    collections::BTreeSet,
+};
+
+use durer_scene::{Diagnostics, Limits, Location};
+
+use super::element::{Checked, Element, Fault};
+
+/// A glTF document under import.
+pub(super) struct Document<'a> {
+    /// Its outermost object.
+    pub(super) root: Element<'a>,
+    /// Bounds on nesting.
+    pub(super) limits: Limits,
+    file: String,
+    complaints: RefCell<Diagnostics>,
+    said: RefCell<BTreeSet<String>>,
+    budget: Cell<u64>,
+}
+
+impl<'a> Document<'a> {
+    /// The document `root` of `file`.
+    pub(super) fn new(root: Element<'a>, file: String, limits: Limits) -> Self {
+        let complaints = RefCell::default();
+        Self { root, limits, file, complaints, said: RefCell::default(), budget: Cell::new(0) }
+    }
+    /// Element of the list `list` that `reference` names by index.
+    pub(super) fn item(&self, list: &str, reference: &Element<'a>) -> Checked<Element<'a>> {
+        let index = reference.index()?;
+        if let Some(item) = self.root.list_item(list, index)? {
+            return Ok(item);
+        }
+        let count = self.root.list(list)?.len();
+        Err(reference.fault(format!("refers to /{list}/{index}, but there are only {count} {list}")))
+    }
+    /// [`Self::item`] for the optional member `key` of `from`.
+    pub(super) fn member(&self, from: &Element<'a>, key: &str, list: &str) -> Checked<Option<Element<'a>>> {
+        from.get(key)?.map(|reference| self.item(list, &reference)).transpose()
+    }
+
+    fn location(&self, pointer: &str) -> Location {
+        Location::Path { file: self.file.clone(), pointer: pointer.to_owned() }
+    }
+    /// Adds an error.
+    pub(super) fn error(&self, fault: Fault) {
+        let mut complaints = self.complaints.borrow_mut();
+        if complaints.is_full() {
+            return;
+        }
+        let diagnostic = complaints.error(self.location(&fault.pointer), fault.message);
+        if let Some(hint) = fault.hint {
+            diagnostic.hint(hint);
+        }
+    }
+    /// Keeps a value; turns a fault into an error.
+    pub(super) fn keep<T>(&self, checked: Checked<T>) -> Option<T> {
+        checked.map_err(|fault| self.error(fault)).ok()
+    }
+    /// Adds a warning, unless the same words were said before about another place.
+    pub(super) fn warn(&self, at: &Element<'_>, message: impl Into<String>) {
+        let message = message.into();
+        if self.said.borrow_mut().insert(message.clone()) {
+            self.complaints.borrow_mut().warning(self.location(at.pointer()), message);
+        }
+    }
+    /// Adds a note.
+    pub(super) fn note(&self, at: &Element<'_>, message: impl Into<String>) {
+        self.complaints.borrow_mut().note(self.location(at.pointer()), message);
+    }
+    /// True if an error was found.
+    pub(super) fn has_errors(&self) -> bool {
+        self.complaints.borrow().has_errors()
+    }
+    /// All complaints.
+    pub(super) fn into_complaints(self) -> Diagnostics {
+        self.complaints.into_inner()
+    }
+
+    /// Sets what geometry may unpack to, from the size of the buffers it is unpacked from. Quantised, sparse and
+    /// shared accessors make arrays grow a few times; a file that wants more than this is an attack.
+    pub(super) fn set_budget(&self, buffer_bytes: u64) {
+        self.budget.set(buffer_bytes.saturating_mul(256).saturating_add(64 << 20));
+    }
+    /// Takes `bytes` from that budget before they are allocated.
+    pub(super) fn spend(&self, at: &Element<'_>, count: usize, size: usize) -> Checked<()> {
+        let bytes = (count as u64).saturating_mul(size as u64);
+        match self.budget.get().checked_sub(bytes) {
+            Some(left) => {
+                self.budget.set(left);
+                Ok(())
+            }
+            None => Err(at.fault(format!(
+                "the geometry of this file unpacks to far more than its buffers hold ({count} elements here)"
+            ))),
+        }
+    }
+}

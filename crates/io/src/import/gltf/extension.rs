@@ -1,0 +1,90 @@
+//! Which extensions are read, which only change the looks of what we draw without them, and which we must refuse.
+use durer_scene::nearest_word;
+
+use super::{
+    document::Document,
+    element::{Checked, Element},
+};
+
+/// Read completely, or as far as a picture shows.
+const READ: &[&str] = &[
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// Not read; a scene that requires one is drawn without it, with a warning: geometry and textures are all there.
+const LOOKS_ONLY: &[&str] = &[
+    "KHR_animation_pointer",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+];
+
+/// Not read, and data is missing without them; with a way out.
+const REFUSED: &[(&str, &str)] = &[
+    ("EXT_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("EXT_texture_avif", "convert the textures: `gltf-transform png in.glb out.glb`"),
+    ("EXT_texture_webp", "convert the textures: `gltf-transform png in.glb out.glb`"),
+    ("KHR_draco_mesh_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("KHR_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("KHR_texture_basisu", "convert the textures: `gltf-transform ktxdecompress in.glb out.glb`"),
+];
+
+fn known() -> impl Iterator<Item = &'static str> {
+    READ.iter().chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))
+}
+
+/// Refuses documents that require what we do not read; lists optional extensions that are ignored.
+pub(super) fn check(document: &Document<'_>) -> Checked<()> {
+    let required = document.root.list("extensionsRequired")?;
+    for element in &required {
+        document.keep(require(document, element));
+    }
+    let mut ignored = Vec::new();
+    for element in document.root.list("extensionsUsed")? {
+        let name = element.text()?;
+        let needed = required.iter().any(|r| r.text() == Ok(name));
+        if !needed && !READ.contains(&name) && !ignored.contains(&name) {
+            ignored.push(name);
+        }
+    }
+    if let (Some(list), false) = (document.root.get("extensionsUsed")?, ignored.is_empty()) {
+        document.note(&list, format!("optional extensions that durer ignores: {}", ignored.join(", ")));
+    }
+    Ok(())
+}
+
+fn require(document: &Document<'_>, element: &Element<'_>) -> Checked<()> {
+    let name = element.text()?;
+    if READ.contains(&name) {
+        return Ok(());
+    }
+    if LOOKS_ONLY.contains(&name) {
+        document.warn(element, format!("the file requires {name}, which durer draws without so far"));
+        return Ok(());
+    }
+    let mut fault = element.fault(format!("the file requires the extension {name}, which durer does not read"));
+    fault.hint = Some(match REFUSED.iter().find(|(refused, _)| *refused == name) {
+        Some((_, way_out)) => (*way_out).to_owned(),
+        None => match nearest_word(name, known()) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => format!("export the scene without it; durer reads {}", READ.join(", ")),
+        },
+    });
+    Err(fault)
+}

@@ -1,0 +1,229 @@
+//! The files of a scene: the main one and those it includes.
+//!
+//! An included path is looked up in the folder of the including file, then in that of the main file (pbrt-v4 knows the
+//! latter only). It may not lead out of the main file's folder, and nesting, number and total size are limited, so that
+//! a few hostile lines cannot unfold into a parse without end.
+use std::{
+    collections::HashMap,
+    fs::File,
+    io::{ErrorKind, Read},
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use durer_scene::{Diagnostics, Limits, Location, SourceId, Sources, Span};
+
+/// True if spans, which count bytes in 32 bits, can point at all of `text`.
+pub(super) fn spans_fit(text: &str) -> bool {
+    u32::try_from(text.len()).is_ok()
+}
+
+/// Most `Include` and `Import` directives that are followed.
+const MOST_INCLUDES: u32 = 1 << 16;
+
+/// A text with its number.
+#[derive(Clone, Debug)]
+pub(super) struct Text {
+    /// In [`Sources`].
+    pub(super) source: SourceId,
+    /// All of it.
+    pub(super) text: Arc<str>,
+    /// Folder that paths in it are relative to; `None` for texts that are no files.
+    pub(super) folder: Option<PathBuf>,
+    /// The file, links resolved; empty for texts that are no files.
+    pub(super) path: PathBuf,
+}
+
+/// Finds and reads files, each once.
+#[derive(Debug)]
+pub(super) struct Files {
+    /// The main file's folder, links resolved.
+    root: Option<PathBuf>,
+    /// The same as the user wrote it.
+    shown_root: PathBuf,
+    known: HashMap<PathBuf, Text>,
+    limits: Limits,
+    bytes: u64,
+    includes: u32,
+}
+
+impl Files {
+    /// For a text that is no file: it includes nothing.
+    pub(super) fn none(limits: Limits) -> Self {
+        Self { root: None, shown_root: PathBuf::new(), known: HashMap::new(), limits, bytes: 0, includes: 0 }
+    }
+
+    /// Reads the main file.
+    pub(super) fn main(
+        path: &Path,
+        limits: Limits,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<(Self, Text)> {
+        let mut files = Self::none(limits);
+        files.shown_root = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+        let name = path.display().to_string();
+        let found = match path.canonicalize() {
+            Ok(found) => found,
+            Err(e) => {
+                diagnostics.error(Location::None, format!("{name}: {}", reason(&e)));
+                return None;
+            }
+        };
+        // Not found.parent(): a scene that is a link still finds its files beside the link.
+        let folder = if files.shown_root.as_os_str().is_empty() { Path::new(".") } else { &files.shown_root };
+        files.root = folder.canonicalize().ok();
+        let folder = files.root.clone();
+        let text = files.load(found, name, Location::None, sources, diagnostics)?;
+        Some((files, Text { folder, ..text }))
+    }
+
+    /// Deepest nesting of files and blocks.
+    pub(super) fn depth(&self) -> usize {
+        self.limits.depth
+    }
+
+    /// Reads the file that the text in `folder` includes as `name`; `open` are the files being read.
+    pub(super) fn include(
+        &mut self,
+        name: &str,
+        folder: Option<&Path>,
+        open: &[PathBuf],
+        at: Span,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Text> {
+        let (Some(folder), Some(root)) = (folder, self.root.clone()) else {
+            diagnostics.error(at, "this text is no file, so it cannot include one");
+            return None;
+        };
+        self.includes += 1;
+        if self.includes > MOST_INCLUDES {
+            diagnostics.error(at, format!("more than {MOST_INCLUDES} files are included"));
+            return None;
+        }
+        let candidates = [folder.join(name), root.join(name)];
+        let found = candidates.iter().map(|p| p.canonicalize()).find(Result::is_ok);
+        let found = match found.unwrap_or_else(|| folder.join(name).canonicalize()) {
+            Ok(found) => found,
+            Err(e) => {
+                let hint = format!("looked in {}", self.shown_root.join(shown(folder, &root)).display());
+                diagnostics.error(at, format!("{name}: {}", reason(&e))).hint(hint);
+                return None;
+            }
+        };
+        if !found.starts_with(&root) {
+            diagnostics.error(at, format!("{name}: leads out of the scene's folder"));
+            return None;
+        }
+        if open.contains(&found) {
+            diagnostics.error(at, format!("{name}: the file includes itself, perhaps through others"));
+            return None;
+        }
+        if open.len() > self.limits.depth {
+            diagnostics.error(at, format!("files are included more than {} deep", self.limits.depth));
+            return None;
+        }
+        let shown = self.shown_root.join(shown(&found, &root)).display().to_string();
+        self.load(found, shown, at.into(), sources, diagnostics)
+    }
+
+    fn load(
+        &mut self,
+        path: PathBuf,
+        shown: String,
+        at: Location,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Text> {
+        if let Some(text) = self.known.get(&path) {
+            let text = text.clone();
+            let fits = self.charge(text.text.len() as u64);
+            if !fits {
+                diagnostics.error(at, format!("{shown}: the scene's files are too large together"));
+            }
+            return fits.then_some(text);
+        }
+        // Spans count bytes in 32 bits.
+        let most = self.limits.file_bytes.min(u64::from(u32::MAX) - 4);
+        let bytes = match read_bytes(&path, most) {
+            Ok(bytes) if bytes.len() as u64 > most || !self.charge(bytes.len() as u64) => {
+                diagnostics.error(at, format!("{shown}: larger than {most} bytes"));
+                return None;
+            }
+            Ok(bytes) => bytes,
+            Err(e) => {
+                diagnostics.error(at, format!("{shown}: {}", reason(&e)));
+                return None;
+            }
+        };
+        let folder = path.parent().map(Path::to_owned);
+        let (source, text) = decode(bytes, shown, sources, diagnostics)?;
+        let text = Text { source, text, folder, path };
+        self.known.insert(text.path.clone(), text.clone());
+        Some(text)
+    }
+
+    /// Counts text to be parsed; false if it is too much in all.
+    fn charge(&mut self, bytes: u64) -> bool {
+        self.bytes = self.bytes.saturating_add(bytes);
+        self.bytes <= self.limits.file_bytes
+    }
+}
+
+/// `path` below `root`.
+fn shown<'p>(path: &'p Path, root: &Path) -> &'p Path {
+    path.strip_prefix(root).unwrap_or(path)
+}
+
+fn reason(e: &std::io::Error) -> String {
+    if e.kind() == ErrorKind::NotFound { "file not found".to_owned() } else { e.to_string() }
+}
+
+/// The file's bytes, at most one more than `most`.
+fn read_bytes(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let about = file.metadata()?;
+    if about.is_dir() {
+        return Err(std::io::Error::new(ErrorKind::IsADirectory, "this is a folder"));
+    }
+    let mut bytes = Vec::with_capacity(about.len().min(most) as usize + 1);
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Registers the text, complaining about bytes that are none. Wrong bytes in a text are shown as U+FFFD and reading
+/// goes on; other formats are told by their first bytes and refused.
+fn decode(
+    bytes: Vec<u8>,
+    shown: String,
+    sources: &mut Sources,
+    diagnostics: &mut Diagnostics,
+) -> Option<(SourceId, Arc<str>)> {
+    let bytes = match String::from_utf8(bytes) {
+        Ok(text) => {
+            let text: Arc<str> = text.into();
+            return Some((sources.add(shown, text.clone()), text));
+        }
+        Err(e) => e,
+    };
+    let first = bytes.utf8_error().valid_up_to() as u32;
+    let bytes = bytes.into_bytes();
+    let other = match bytes.as_slice() {
+        [0x1f, 0x8b, ..] => Some("this is a gzip file; unpack it first"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("this is UTF-16; save it as UTF-8"),
+        b if b.contains(&0) || b.len() > u32::MAX as usize / 3 => {
+            Some("this is a binary file, not a pbrt scene")
+        }
+        _ => None,
+    };
+    let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
+    let source = sources.add(shown.clone(), if other.is_some() { Arc::from("") } else { text.clone() });
+    if let Some(other) = other {
+        diagnostics.error(Location::None, format!("{shown}: {other}"));
+        return None;
+    }
+    let at = Span { source, start: first, end: first + '\u{fffd}'.len_utf8() as u32 };
+    diagnostics.error(at, "this is not valid UTF-8").hint("save the file as UTF-8");
+    Some((source, text))
+}

@@ -1,0 +1,151 @@
+//! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
+use durer_scene::{
+    Args, Diagnostics, FilmDesc, Location, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema,
+};
+
+const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> ParamSpec {
+    ParamSpec::new(name, ParamType::Int, ParamDefault::Int(default), doc).range(1.0, most)
+}
+
+/// Parameters of every film; `gbuffer` and `spectral` add a few.
+pub(super) const FILM: Schema = Schema {
+    name: "rgb",
+    aliases: &["gbuffer", "spectral"],
+    doc: "The picture: its size and, for information, its file.",
+    params: &[
+        int("xresolution", 1280, 1e6, "pixels per row"),
+        int("yresolution", 720, 1e6, "rows"),
+        ParamSpec::new("filename", ParamType::File, ParamDefault::Text("pbrt.exr"), "shown by info"),
+        ParamSpec::float("diagonal", 35.0, "film size, used by the realistic camera").unit("mm"),
+        ParamSpec::new("savefp16", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
+        ParamSpec::new("cropwindow", ParamType::Floats, ParamDefault::Unset, "not supported yet"),
+        ParamSpec::new("pixelbounds", ParamType::Ints, ParamDefault::Unset, "not supported yet"),
+        ParamSpec::new("sensor", ParamType::Text, ParamDefault::Text("cie1931"), "only the default"),
+        ParamSpec::float("iso", 100.0, "only the default"),
+        ParamSpec::float("exposuretime", 1.0, "only the default"),
+        ParamSpec::float("whitebalance", 0.0, "only the default").unit("K"),
+        ParamSpec::float("scale", 1.0, "only the default"),
+        ParamSpec::new("maxcomponentvalue", ParamType::Float, ParamDefault::Unset, "not supported yet"),
+        ParamSpec::new(
+            "coordinatesystem",
+            ParamType::Text,
+            ParamDefault::Text("camera"),
+            "gbuffer: no effect",
+        ),
+        int("nbuckets", 16, 1e6, "spectral: no effect"),
+        ParamSpec::float("lambdamin", 360.0, "spectral: no effect").unit("nm"),
+        ParamSpec::float("lambdamax", 830.0, "spectral: no effect").unit("nm"),
+    ],
+};
+
+/// Samplers of pbrt-v4 that take `pixelsamples`.
+const SAMPLERS: [&str; 6] = ["halton", "independent", "paddedsobol", "sobol", "zsobol", "pmj02bn"];
+
+const SAMPLES: ParamSpec = int("pixelsamples", 16, 1e9, "samples per pixel");
+const SEED: ParamSpec = ParamSpec::new("seed", ParamType::Int, ParamDefault::Int(0), "no effect");
+
+/// Parameters of the samplers that take `pixelsamples`.
+pub(super) const SAMPLER: Schema = Schema {
+    name: "sampler",
+    aliases: &[],
+    doc: "How many samples per pixel; durer has one sampler and takes no other advice.",
+    params: &[
+        SAMPLES,
+        SEED,
+        ParamSpec::new(
+            "randomization",
+            ParamType::Choice(&["none", "permutedigits", "fastowen", "owen"]),
+            ParamDefault::Text("fastowen"),
+            "no effect",
+        ),
+    ],
+};
+
+/// Parameters of the stratified sampler.
+pub(super) const STRATIFIED: Schema = Schema {
+    name: "stratified",
+    aliases: &[],
+    doc: "xsamples times ysamples samples per pixel.",
+    params: &[
+        int("xsamples", 4, 3e4, "samples in x"),
+        int("ysamples", 4, 3e4, "samples in y"),
+        SEED,
+        ParamSpec::new("jitter", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
+    ],
+};
+
+/// Reads `Film`. Returns what it asks for in vain: parameter (or kind) and where.
+pub(super) fn film(
+    node: &Node,
+    film: &mut FilmDesc,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(&'static str, Location)> {
+    let known = FILM.name == node.kind || FILM.aliases.contains(&node.kind.as_str());
+    if node.kind == "image" {
+        let hint = "this is pbrt-v3's word; pbrt-v4 writes \"rgb\"";
+        diagnostics.error(node.at.clone(), "unknown film \"image\"").hint(hint);
+    } else if !known {
+        diagnostics.unknown(
+            node.at.clone(),
+            "film",
+            &node.kind,
+            FILM.aliases.iter().copied().chain([FILM.name]),
+        );
+    }
+    let args = Args::check(node, FILM, &[], diagnostics);
+    film.width = u32::try_from(args.int("xresolution")).ok();
+    film.height = u32::try_from(args.int("yresolution")).ok();
+    film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
+    let crop = args.floats("cropwindow");
+    let unusual = [
+        ("cropwindow", !crop.is_empty() && crop != [0.0, 1.0, 0.0, 1.0]),
+        ("pixelbounds", !args.ints("pixelbounds").is_empty() && !whole(&args)),
+        ("sensor", args.text("sensor") != "cie1931"),
+        ("iso", args.float("iso") != 100.0),
+        ("exposuretime", args.float("exposuretime") != 1.0),
+        ("whitebalance", args.float("whitebalance") != 0.0),
+        ("scale", args.float("scale") != 1.0),
+        ("maxcomponentvalue", args.optional_float("maxcomponentvalue").is_some()),
+    ];
+    let mut vain: Vec<_> =
+        FILM.aliases.iter().filter(|a| **a == node.kind).map(|a| (*a, node.at.clone())).collect();
+    if args.is_sound() {
+        let at = |name: &str| node.params.get(name).map_or(Location::None, |p| p.at.clone());
+        vain.extend(unusual.iter().filter(|u| u.1).map(|(name, _)| (*name, at(name))));
+    }
+    vain
+}
+
+/// True if `pixelbounds` is the whole picture.
+fn whole(args: &Args<'_>) -> bool {
+    args.ints("pixelbounds") == [0, args.int("xresolution"), 0, args.int("yresolution")]
+}
+
+/// Reads `Sampler`.
+pub(super) fn sampler(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagnostics) {
+    if node.kind == STRATIFIED.name {
+        let args = Args::check(node, STRATIFIED, &[], diagnostics);
+        film.samples = u32::try_from(args.int("xsamples").saturating_mul(args.int("ysamples"))).ok();
+        return;
+    }
+    if !SAMPLERS.contains(&node.kind.as_str()) {
+        diagnostics.unknown(
+            node.at.clone(),
+            "sampler",
+            &node.kind,
+            SAMPLERS.into_iter().chain([STRATIFIED.name]),
+        );
+        // Its number of samples is worth having even so; what else it takes is unknown.
+        let mut samples = Params::new();
+        node.params.iter().filter(|p| p.name == SAMPLES.name).for_each(|p: &Param| samples.push(p.clone()));
+        return sampler(
+            &Node { kind: "sobol".to_owned(), params: samples, at: node.at.clone() },
+            film,
+            diagnostics,
+        );
+    }
+    // Messages call the sampler by its own name.
+    let name = SAMPLERS.into_iter().find(|s| *s == node.kind).unwrap_or(SAMPLER.name);
+    let args = Args::check(node, Schema { name, ..SAMPLER }, &[], diagnostics);
+    film.samples = u32::try_from(args.int(SAMPLES.name)).ok();
+}

@@ -1,0 +1,214 @@
+//! The directives that name a kind of thing in the world and give it parameters.
+use durer_scene::{Data, LightDesc, Node, TextureValue, ValueType};
+
+use super::{
+    input::{Reported, Word},
+    lexer::{Token, TokenKind},
+    params::{ParamList, stored, take},
+    parser::Parser,
+    state::Target,
+    world::PlacedShape,
+};
+
+impl Parser<'_> {
+    /// A kind and its parameters.
+    pub(super) fn kind_and_params(&mut self, head: Token, what: &str) -> Result<(Word, ParamList), Reported> {
+        let kind = self.input.string(head, what)?;
+        let params = self.input.params()?;
+        Ok((kind, params))
+    }
+
+    pub(super) fn node(&mut self, head: Token, what: &str) -> Result<Node, Reported> {
+        let (kind, params) = self.kind_and_params(head, what)?;
+        Ok(Node { kind: kind.text, params: stored(params), at: kind.at.into() })
+    }
+
+    /// Our addition: what the parameter "string name" calls a shape, light or camera.
+    pub(super) fn name(&mut self, params: &mut ParamList) -> String {
+        let Some(param) = take(params, "name") else {
+            return String::new();
+        };
+        if let (ValueType::String, Data::Strings(names)) = (param.ty, &param.data)
+            && let [name] = names.as_slice()
+        {
+            return name.clone();
+        }
+        self.input.diagnostics.error(param.at, "\"name\" must be one string");
+        String::new()
+    }
+
+    /// Adds what `Attribute` gave to `target`.
+    fn inherit(&mut self, target: Target, mut params: ParamList, at: &Word) -> ParamList {
+        let inherited = self.state.inherited.of(target);
+        let missing = inherited.iter().filter(|new| params.iter().all(|own| own.name != new.name));
+        let missing: Vec<_> = missing.collect();
+        if missing.is_empty() {
+            return params;
+        }
+        if self.world.may_copy(missing.iter().copied()) {
+            params.extend(missing.into_iter().cloned());
+        } else if self.first_time("copied parameters") {
+            self.input.error(at.at, "the parameters given by Attribute take more than 1 GiB in all");
+        }
+        params
+    }
+
+    /// `Attribute`
+    pub(super) fn attribute(&mut self, head: Token) -> Result<(), Reported> {
+        let (word, params) = self.kind_and_params(head, "shape, light, material or texture")?;
+        let target = match word.text.as_str() {
+            "shape" => Target::Shape,
+            "light" => Target::Light,
+            "material" => Target::Material,
+            "texture" => Target::Texture,
+            "medium" => {
+                self.warn_once("medium", word.at, "media are not supported yet; they are ignored");
+                return Ok(());
+            }
+            other => {
+                let words = ["shape", "light", "material", "texture", "medium"];
+                self.input.diagnostics.unknown(word.at, "target of Attribute", other, words);
+                return Ok(());
+            }
+        };
+        // Every AttributeBegin shares these, every change copies them.
+        if !self.world.may_copy(self.state.inherited.of(target)) || !self.state.inherited.add(target, params)
+        {
+            self.input.error(word.at, "Attribute gives too many parameters");
+        }
+        Ok(())
+    }
+
+    /// `Shape`
+    pub(super) fn shape(&mut self, head: Token) -> Result<(), Reported> {
+        let (kind, params) = self.kind_and_params(head, "a kind of shape")?;
+        let mut params = self.inherit(Target::Shape, params, &kind);
+        let name = self.name(&mut params);
+        self.world.shape(PlacedShape {
+            name,
+            node: Node { kind: kind.text, params: stored(params), at: kind.at.into() },
+            placement: self.state.ctm,
+            material: self.state.material,
+            reverse: self.state.reverse,
+        });
+        Ok(())
+    }
+
+    /// `LightSource`
+    pub(super) fn light(&mut self, head: Token) -> Result<(), Reported> {
+        let (kind, params) = self.kind_and_params(head, "a kind of light")?;
+        let mut params = self.inherit(Target::Light, params, &kind);
+        let name = self.name(&mut params);
+        if self.world.in_object() {
+            let message = "lights in object definitions are not repeated by its instances";
+            self.warn_once("light in object", kind.at, message);
+        }
+        let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
+        let world_from_light = self.state.ctm.motion(self.world.times);
+        self.world.desc.lights.push(LightDesc { name, node, world_from_light });
+        Ok(())
+    }
+
+    /// `AreaLightSource`
+    pub(super) fn area_light(&mut self, head: Token) -> Result<(), Reported> {
+        let (kind, _) = self.kind_and_params(head, "a kind of area light")?;
+        let message = "AreaLightSource is not supported yet: its shapes give no light";
+        self.warn_once("AreaLightSource", kind.at, message);
+        Ok(())
+    }
+
+    /// `Material`
+    pub(super) fn material(&mut self, head: Token) -> Result<(), Reported> {
+        let (mut kind, params) = self.kind_and_params(head, "a kind of material")?;
+        let params = self.inherit(Target::Material, params, &kind);
+        if kind.text.is_empty() {
+            kind.text.push_str("interface");
+        }
+        let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
+        self.state.material = Some(self.world.material(node));
+        Ok(())
+    }
+
+    /// `MakeNamedMaterial`
+    pub(super) fn make_named_material(&mut self, head: Token) -> Result<(), Reported> {
+        let name = self.input.string(head, "a name")?;
+        let params = self.input.params();
+        let node = params.as_ref().ok().cloned().and_then(|params| self.named_node(params, &name));
+        self.world.define_material(&name, node, self.input.diagnostics);
+        params.map(|_| ())
+    }
+
+    /// The node of a named material, whose kind is the parameter "string type".
+    fn named_node(&mut self, params: ParamList, name: &Word) -> Option<Node> {
+        let mut params = self.inherit(Target::Material, params, name);
+        let Some(ty) = take(&mut params, "type") else {
+            self.input.error(name.at, "MakeNamedMaterial needs the parameter \"string type\"");
+            return None;
+        };
+        let (ValueType::String, Data::Strings(kinds)) = (ty.ty, ty.data) else {
+            self.input.diagnostics.error(ty.at, "\"type\" must be a string");
+            return None;
+        };
+        let kind = kinds.into_iter().next().unwrap_or_default();
+        let kind = if kind.is_empty() { "interface".to_owned() } else { kind };
+        Some(Node { kind, params: stored(params), at: ty.at })
+    }
+
+    /// `NamedMaterial`
+    pub(super) fn named_material(&mut self, head: Token) -> Result<(), Reported> {
+        let name = self.input.string(head, "the name of a material")?;
+        self.state.material = Some(self.world.use_material(&name));
+        Ok(())
+    }
+
+    /// `Texture`
+    pub(super) fn texture(&mut self, head: Token) -> Result<(), Reported> {
+        let name = self.input.string(head, "a name")?;
+        let ty = self.input.string(head, "float or spectrum")?;
+        let value = match ty.text.as_str() {
+            "float" => Some(TextureValue::Float),
+            "spectrum" => Some(TextureValue::Color),
+            "color" => {
+                self.warn_once(
+                    "color texture",
+                    ty.at,
+                    "\"color\" is pbrt-v3's word; it is read as \"spectrum\"",
+                );
+                Some(TextureValue::Color)
+            }
+            other => {
+                self.input.diagnostics.unknown(ty.at, "texture type", other, ["float", "spectrum"]);
+                None
+            }
+        };
+        let node = self.kind_and_params(head, "a kind of texture").map(|(kind, params)| {
+            let params = self.inherit(Target::Texture, params, &kind);
+            Node { kind: kind.text, params: stored(params), at: kind.at.into() }
+        });
+        if let Some(value) = value {
+            self.world.texture(&name, value, node.as_ref().ok().cloned(), self.input.diagnostics);
+        }
+        node.map(|_| ())
+    }
+
+    /// `MakeNamedMedium`
+    pub(super) fn medium(&mut self, head: Token) -> Result<(), Reported> {
+        let (name, _) = self.kind_and_params(head, "a name")?;
+        self.warn_once("medium", name.at, "media are not supported yet; they are ignored");
+        Ok(())
+    }
+
+    /// `MediumInterface`: one name or two; empty ones are the vacuum.
+    pub(super) fn medium_interface(&mut self, head: Token) -> Result<(), Reported> {
+        let inside = self.input.string(head, "the name of a medium")?;
+        let second = self.input.lexer.peek();
+        let outside = match second.kind {
+            TokenKind::Plain | TokenKind::Escaped => self.input.string(head, "the name of a medium")?.text,
+            _ => String::new(),
+        };
+        if !inside.text.is_empty() || !outside.is_empty() {
+            self.warn_once("medium", inside.at, "media are not supported yet; they are ignored");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,137 @@
+//! The directives before `WorldBegin`: camera, picture and transport.
+use durer_scene::{CameraDesc, Node};
+
+use super::{film, input::Reported, lexer::Token, params::stored, parser::Parser};
+
+/// Colour spaces of pbrt-v4; ours comes first.
+const COLOR_SPACES: [&str; 4] = ["srgb", "rec2020", "aces2065-1", "dci-p3"];
+
+/// Keeps the search for names cheap.
+const MOST_CAMERAS: usize = 1024;
+
+/// What `Option` sets in pbrt-v4.
+const OPTIONS: [&str; 12] = [
+    "disablepixeljitter",
+    "disabletexturefiltering",
+    "disablewavelengthjitter",
+    "displacementedgescale",
+    "forcediffuse",
+    "msereferenceimage",
+    "msereferenceout",
+    "pixelstats",
+    "rendercoordsys",
+    "seed",
+    "wavefront",
+    "quickrender",
+];
+
+impl Parser<'_> {
+    /// `Camera`
+    pub(super) fn camera(&mut self, head: Token) -> Result<(), Reported> {
+        // Known even if the parameters are wrong, so that CoordSysTransform "camera" makes no second error.
+        let world_from_camera = self.state.ctm.inverse();
+        self.coordinate_systems.insert("camera".to_owned(), world_from_camera);
+        let (kind, mut params) = self.kind_and_params(head, "a kind of camera")?;
+        let name = self.name(&mut params);
+        let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
+        let camera = CameraDesc { name, node, world_from_camera: world_from_camera.motion(self.world.times) };
+        let cameras = &mut self.world.desc.cameras;
+        let full = cameras.len() >= MOST_CAMERAS;
+        match cameras.iter_mut().find(|c| c.name == camera.name) {
+            Some(old) => {
+                *old = camera;
+                let message = "this Camera replaces the earlier one; several need a \"string name\" each";
+                self.warn_once("Camera", kind.at, message);
+            }
+            None if full => {
+                self.input.error(kind.at, format!("more than {MOST_CAMERAS} cameras"));
+            }
+            None => cameras.push(camera),
+        }
+        Ok(())
+    }
+
+    /// Warns if an option directive is given again.
+    fn only(&mut self, key: &'static str, again: bool, head: Token) {
+        if again {
+            let at = self.input.lexer.span(head);
+            self.warn_once(key, at, format!("this {key} replaces the earlier one"));
+        }
+    }
+
+    /// `Film`
+    pub(super) fn film(&mut self, head: Token) -> Result<(), Reported> {
+        let node = self.node(head, "a kind of film")?;
+        self.only("Film", self.world.desc.film.width.is_some(), head);
+        for (what, at) in film::film(&node, &mut self.world.desc.film, self.input.diagnostics) {
+            self.warn_once(what, at, format!("the film's \"{what}\" is not supported yet; it is ignored"));
+        }
+        Ok(())
+    }
+
+    /// `Sampler`
+    pub(super) fn sampler(&mut self, head: Token) -> Result<(), Reported> {
+        let node = self.node(head, "a kind of sampler")?;
+        self.only("Sampler", self.world.desc.sampler.is_some(), head);
+        film::sampler(&node, &mut self.world.desc.film, self.input.diagnostics);
+        self.world.desc.sampler = Some(node);
+        Ok(())
+    }
+
+    /// `PixelFilter`
+    pub(super) fn pixel_filter(&mut self, head: Token) -> Result<(), Reported> {
+        let node = self.node(head, "a kind of filter")?;
+        self.only("PixelFilter", self.world.desc.filter.is_some(), head);
+        self.world.desc.filter = Some(node);
+        Ok(())
+    }
+
+    /// `Integrator`
+    pub(super) fn integrator(&mut self, head: Token) -> Result<(), Reported> {
+        let node = self.node(head, "a kind of integrator")?;
+        self.only("Integrator", self.world.desc.integrator.is_some(), head);
+        self.world.desc.integrator = Some(node);
+        Ok(())
+    }
+
+    /// `Accelerator`: pictures do not depend on it.
+    pub(super) fn accelerator(&mut self, head: Token) -> Result<(), Reported> {
+        let (kind, _) = self.kind_and_params(head, "a kind of accelerator")?;
+        if self.first_time("Accelerator") {
+            self.input.diagnostics.note(kind.at, "durer chooses its acceleration structure itself");
+        }
+        Ok(())
+    }
+
+    /// `Option`
+    pub(super) fn option(&mut self, head: Token) -> Result<(), Reported> {
+        let params = self.input.params()?;
+        let Some(param) = params.first() else {
+            let at = self.input.lexer.span(head);
+            self.input.error(at, "Option needs one parameter such as \"integer seed\" 1");
+            return Err(Reported);
+        };
+        match OPTIONS.iter().find(|o| **o == param.name) {
+            None => self.input.diagnostics.unknown(param.at.clone(), "option", &param.name, OPTIONS),
+            Some(option) if self.first_time(option) => {
+                let message = format!("the option \"{option}\" is not supported yet; it is ignored");
+                self.input.diagnostics.warning(param.at.clone(), message);
+            }
+            Some(_) => {}
+        }
+        Ok(())
+    }
+
+    /// `ColorSpace`
+    pub(super) fn color_space(&mut self, head: Token) -> Result<(), Reported> {
+        let name = self.input.string(head, "a colour space")?;
+        if !COLOR_SPACES.contains(&name.text.as_str()) {
+            self.input.diagnostics.unknown(name.at, "colour space", &name.text, COLOR_SPACES);
+        } else if name.text != "srgb" {
+            let message =
+                format!("the colour space \"{}\" is not supported yet; colours are read as sRGB", name.text);
+            self.warn_once("ColorSpace", name.at, message);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,224 @@
+//! The current transformation matrix and the directives that change it.
+//!
+//! pbrt keeps two matrices, one for the start and one for the end of the shutter interval; `ActiveTransform` says which
+//! of them the directives change. Conventions of pbrt-v4: matrices multiply from the right (`CTM * M`), a written
+//! matrix lists its columns, angles are degrees, `LookAt` makes the left-handed camera space (x right, y up, z ahead).
+use durer_core::{
+    glam::{DAffine3, DMat3, DVec3},
+    math::Motion,
+};
+
+/// `world_from_current` at the two transform times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Placement {
+    /// At the first transform time.
+    pub(super) start: DAffine3,
+    /// At the second.
+    pub(super) end: DAffine3,
+}
+
+impl Placement {
+    pub(super) const IDENTITY: Self = Self { start: DAffine3::IDENTITY, end: DAffine3::IDENTITY };
+
+    /// The way back. Every matrix was checked by [`Active::apply`] when it came about.
+    pub(super) fn inverse(&self) -> Self {
+        Self { start: self.start.inverse(), end: self.end.inverse() }
+    }
+
+    /// `self * inner`: something placed within something placed.
+    pub(super) fn compose(&self, inner: &Self) -> Self {
+        Self { start: self.start * inner.start, end: self.end * inner.end }
+    }
+
+    /// As keys at `times`; one key if it does not move.
+    pub(super) fn motion(&self, times: (f64, f64)) -> Motion {
+        let still = Motion::still(self.start);
+        if self.start == self.end {
+            return still;
+        }
+        Motion::keyed(vec![(times.0, self.start), (times.1, self.end)]).unwrap_or(still)
+    }
+}
+
+/// Which matrices a directive changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Active {
+    /// `ActiveTransform StartTime`
+    Start,
+    /// `ActiveTransform EndTime`
+    End,
+    /// `ActiveTransform All`
+    All,
+}
+
+impl Active {
+    /// The words of the language.
+    pub(super) const WORDS: [(&str, Self); 3] =
+        [("StartTime", Self::Start), ("EndTime", Self::End), ("All", Self::All)];
+
+    /// `placement` with its active matrices changed by `change`.
+    ///
+    /// # Errors
+    /// If a result cannot be inverted.
+    pub(super) fn apply(
+        self,
+        placement: &Placement,
+        change: impl Fn(&DAffine3) -> DAffine3,
+    ) -> Result<Placement, &'static str> {
+        let mut new = *placement;
+        if self != Self::End {
+            new.start = change(&placement.start);
+        }
+        if self != Self::Start {
+            new.end = change(&placement.end);
+        }
+        if is_invertible(&new.start) && is_invertible(&new.end) { Ok(new) } else { Err(SINGULAR) }
+    }
+}
+
+const SINGULAR: &str =
+    "this makes the current transformation singular: it has no inverse, so shapes would be flat";
+
+/// True if the matrix is finite and has a finite inverse.
+pub(super) fn is_invertible(m: &DAffine3) -> bool {
+    if !m.is_finite() {
+        return false;
+    }
+    let lengths = m.matrix3.x_axis.length() * m.matrix3.y_axis.length() * m.matrix3.z_axis.length();
+    let det = m.matrix3.determinant().abs();
+    // Relative to the columns, so that a small scale is no reason; rounding leaves about 1e-16 of a singular one.
+    det > 1e-15 * lengths && m.inverse().is_finite()
+}
+
+/// The matrix of 16 numbers, column by column.
+///
+/// # Errors
+/// If its last row is not 0 0 0 1.
+pub(super) fn matrix(m: &[f64; 16]) -> Result<DAffine3, &'static str> {
+    let [a, b, c, p0, d, e, f, p1, g, h, i, p2, x, y, z, w] = *m;
+    // Exporters print rounded numbers: a last row this near is meant to be 0 0 0 1.
+    if p0.abs().max(p1.abs()).max(p2.abs()).max((w - 1.0).abs()) > 1e-6 {
+        return Err(
+            "the 4th, 8th and 12th number must be 0 and the 16th 1: durer has no projective transformations",
+        );
+    }
+    Ok(DAffine3 {
+        matrix3: DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i)),
+        translation: DVec3::new(x, y, z),
+    })
+}
+
+/// Rotation by `degrees` about `axis`, right-handed; multiples of 90 degrees are exact.
+///
+/// # Errors
+/// If the axis has no direction.
+pub(super) fn rotate(degrees: f64, axis: DVec3) -> Result<DAffine3, &'static str> {
+    let n = unit(axis).ok_or("the axis of a rotation must not be 0 0 0")?;
+    let (sin, cos) = match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        d => d.to_radians().sin_cos(),
+    };
+    // Rodrigues: v cos + (n x v) sin + n (n . v) (1 - cos), for the three axes.
+    let column = |v: DVec3| v * cos + n.cross(v) * sin + n * (n.dot(v) * (1.0 - cos));
+    Ok(DAffine3::from_mat3(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))))
+}
+
+/// `camera_from_world` of a camera at `eye` that looks at `target`.
+///
+/// # Errors
+/// If the three do not span a frame.
+pub(super) fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DAffine3, &'static str> {
+    let ahead = unit(target - eye).ok_or("LookAt: the eye and the point looked at are the same")?;
+    let up = unit(up).ok_or("LookAt: the up vector must not be 0 0 0")?;
+    let right = up.cross(ahead);
+    if right.length() < 1e-12 {
+        return Err("LookAt: the up vector points along the viewing direction");
+    }
+    let right = right.normalize();
+    let axes = DMat3::from_cols(right, ahead.cross(right), ahead);
+    Ok(DAffine3 { matrix3: axes, translation: eye }.inverse())
+}
+
+/// Unit vector, whatever the size of the numbers; `None` for zero and what is not finite.
+fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    if largest > 0.0 && largest.is_finite() { (v / largest).try_normalize() } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: DVec3, b: [f64; 3]) {
+        assert!((a - DVec3::from(b)).length() < 1e-12, "{a} is not {b:?}");
+    }
+
+    #[test]
+    fn look_at_is_left_handed() {
+        // Eye on the negative z axis looking along +z with y up: camera space is world space moved.
+        let m = look_at(DVec3::new(1.0, 2.0, -5.0), DVec3::new(1.0, 2.0, 0.0), DVec3::Y).expect("a frame");
+        close(m.transform_point3(DVec3::new(1.0, 2.0, -5.0)), [0.0, 0.0, 0.0]);
+        close(m.transform_vector3(DVec3::X), [1.0, 0.0, 0.0]);
+        close(m.transform_vector3(DVec3::Z), [0.0, 0.0, 1.0]);
+        // Looking along -z from +z: the world's x axis points to the left.
+        let m = look_at(DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, DVec3::Y).expect("a frame");
+        close(m.transform_point3(DVec3::ZERO), [0.0, 0.0, 4.0]);
+        close(m.transform_vector3(DVec3::X), [-1.0, 0.0, 0.0]);
+        close(m.transform_vector3(DVec3::Y), [0.0, 1.0, 0.0]);
+        assert!(m.matrix3.determinant() > 0.0);
+        // Looking along +x with z up: right is up x ahead = z x x = y.
+        let m = look_at(DVec3::ZERO, DVec3::X, DVec3::Z).expect("a frame").inverse();
+        close(m.transform_vector3(DVec3::X), [0.0, 1.0, 0.0]);
+        close(m.transform_vector3(DVec3::Y), [0.0, 0.0, 1.0]);
+        close(m.transform_vector3(DVec3::Z), [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn rotation_is_right_handed_and_exact_at_right_angles() {
+        let m = rotate(90.0, DVec3::new(0.0, 0.0, 7.0)).expect("an axis");
+        assert_eq!(m.transform_vector3(DVec3::X), DVec3::Y);
+        assert_eq!(rotate(-270.0, DVec3::Z).expect("an axis"), m);
+        let m = rotate(120.0, DVec3::ONE).expect("an axis");
+        close(m.transform_vector3(DVec3::X), [0.0, 1.0, 0.0]);
+        close(m.transform_vector3(DVec3::Y), [0.0, 0.0, 1.0]);
+        let m = rotate(30.0, DVec3::Y).expect("an axis");
+        close(m.transform_vector3(DVec3::Z), [0.5, 0.0, 0.75f64.sqrt()]);
+    }
+
+    #[test]
+    fn matrices_list_their_columns() {
+        let m = [1., 2., 3., 0., 4., 5., 6., 0., 7., 8., 10., 0., 11., 12., 13., 1.];
+        let m = matrix(&m).expect("affine");
+        close(m.transform_point3(DVec3::X), [12.0, 14.0, 16.0]);
+        close(m.transform_vector3(DVec3::Z), [7.0, 8.0, 10.0]);
+        let mut projective = [0.0; 16];
+        projective[15] = 2.0;
+        assert!(matrix(&projective).is_err());
+    }
+
+    #[test]
+    fn what_has_no_inverse_is_refused() {
+        let flat = |_: &DAffine3| DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0));
+        assert!(Active::All.apply(&Placement::IDENTITY, flat).is_err());
+        let small = |_: &DAffine3| DAffine3::from_scale(DVec3::new(1e-20, 1e-30, 1e-20));
+        assert!(Active::All.apply(&Placement::IDENTITY, small).is_ok());
+        let huge = |_: &DAffine3| DAffine3::from_scale(DVec3::splat(1e200));
+        assert!(Active::All.apply(&Placement::IDENTITY, huge).is_err());
+        assert!(look_at(DVec3::ONE, DVec3::ONE, DVec3::Y).is_err());
+        assert!(look_at(DVec3::ZERO, DVec3::Y, DVec3::Y).is_err());
+        assert!(rotate(1.0, DVec3::ZERO).is_err());
+    }
+
+    #[test]
+    fn only_active_matrices_change() {
+        let shift = |m: &DAffine3| *m * DAffine3::from_translation(DVec3::X);
+        let p = Active::End.apply(&Placement::IDENTITY, shift).expect("invertible");
+        assert_eq!((p.start.translation, p.end.translation), (DVec3::ZERO, DVec3::X));
+        let motion = p.motion((2.0, 4.0));
+        assert_eq!(motion.keys().iter().map(|k| k.0).collect::<Vec<_>>(), [2.0, 4.0]);
+        assert_eq!(Placement::IDENTITY.motion((0.0, 1.0)).keys().len(), 1);
+    }
+}

@@ -1,0 +1,185 @@
+//! Image files in: the PngSuite, JPEG and OpenEXR conformance files, and damaged ones.
+mod assets_shared;
+
+use assets_shared::{files, folder};
+use durer_io::image::read;
+use durer_scene::{AssetError, Image, ImageData, Limits};
+use std::path::Path;
+
+fn load(path: &Path) -> Result<Image, AssetError> {
+    let bytes = std::fs::read(path).expect("file of the corpus");
+    let name = path.file_name().expect("name").to_string_lossy().into_owned();
+    let image = read(&bytes, &name, Limits::default())?;
+    let values = match &image.data {
+        ImageData::U8(v) => v.len(),
+        ImageData::U16(v) => v.len(),
+        ImageData::F32(v) => v.len(),
+    };
+    assert_eq!(values as u64, u64::from(image.width) * u64::from(image.height) * u64::from(image.channels));
+    Ok(image)
+}
+
+/// Channels and bits that a PngSuite name such as `basn3p04` promises.
+fn promised(name: &str) -> Option<(u32, bool)> {
+    let tail = name.strip_suffix(".png")?.get(name.len() - 8..)?;
+    let channels = match tail.get(..2)? {
+        "0g" => 1,
+        "2c" | "3p" => 3,
+        "4a" => 2,
+        "6a" => 4,
+        _ => return None,
+    };
+    Some((channels, tail.ends_with("16")))
+}
+
+#[test]
+fn every_png_of_the_suite_has_the_promised_channels_and_depth() {
+    let Some(folder) = folder("images/png/pngsuite") else { return };
+    let all = files(&folder);
+    for path in &all {
+        let name = path.file_name().expect("name").to_string_lossy().into_owned();
+        let image = load(path).unwrap_or_else(|e| panic!("{e}"));
+        let (channels, deep) = promised(&name).unwrap_or_else(|| panic!("{name}: no promise"));
+        assert_eq!(matches!(image.data, ImageData::U16(_)), deep, "{name}");
+        let transparent = name.contains("_tb") || name.contains("_tm3") || name.contains("_tp1");
+        assert_eq!(image.channels, channels + u32::from(transparent), "{name}");
+        let size = name.split_once("_s").and_then(|(_, n)| n.get(..2)?.parse().ok()).unwrap_or(32);
+        assert!((image.width, image.height) == (size, size) || !name.contains("_s"), "{name}");
+    }
+    assert!(all.len() > 100);
+}
+
+#[test]
+fn interlaced_pngs_equal_their_plain_twins() {
+    let Some(folder) = folder("images/png/pngsuite") else { return };
+    for (a, b) in [
+        ("primary_basi0g01", "primary_basn0g01"),
+        ("primary_basi2c08", "primary_basn2c08"),
+        ("primary_basi3p04", "primary_basn3p04"),
+        ("16bit_basi2c16", "16bit_basn2c16"),
+        ("primary_s35i3p04", "primary_s35n3p04"),
+    ] {
+        let image = |name: &str| load(&folder.join(format!("{name}.png"))).expect("valid");
+        assert_eq!(image(a), image(b), "{a} {b}");
+    }
+}
+
+#[test]
+fn jpegs_of_all_codings_are_read() {
+    let Some(folder) = folder("images/jpg") else { return };
+    for path in files(&folder) {
+        let image = load(&path).unwrap_or_else(|e| panic!("{e}"));
+        println!("{}: {} x {} x {}", path.display(), image.width, image.height, image.channels);
+        assert!(image.width > 1 && image.channels == 3);
+        let ImageData::U8(v) = &image.data else { panic!("8 bits") };
+        assert!(v.iter().any(|&x| x != v[0]), "{}: one colour only", path.display());
+    }
+}
+
+#[test]
+fn conforming_exrs_are_read_or_refused_by_name() {
+    let Some(folder) = folder("images/exr") else { return };
+    for path in files(&folder) {
+        match load(&path) {
+            Ok(i) => println!("{}: {} x {} x {}", path.display(), i.width, i.height, i.channels),
+            Err(AssetError::Unsupported { reason, .. }) => {
+                println!("{}: {reason}", path.display());
+                let subsampled = path.ends_with("Rec709_YC.exr") || path.ends_with("comp_b44.exr");
+                assert!(subsampled && reason.contains("subsampled"), "{reason}");
+            }
+            Err(e) => panic!("{e}"),
+        }
+    }
+    let image = load(&folder.join("BrightRingsNanInf.exr")).expect("valid");
+    let ImageData::F32(v) = &image.data else { panic!("floats") };
+    assert!(v.iter().any(|x| x.is_nan()) && v.iter().any(|x| x.is_infinite()));
+}
+
+#[test]
+fn damaged_images_give_an_error_or_an_image_but_no_panic() {
+    for name in ["malformed/images", "malformed/exr"] {
+        let Some(folder) = folder(name) else { return };
+        let started = std::time::Instant::now();
+        let (mut good, mut bad) = (0, 0);
+        for path in files(&folder) {
+            let before = std::time::Instant::now();
+            match load(&path) {
+                Ok(image) => {
+                    good += 1;
+                    println!("read {}: {} x {}", path.display(), image.width, image.height);
+                }
+                Err(_) => bad += 1,
+            }
+            assert!(before.elapsed().as_secs() < 20, "{} takes too long", path.display());
+        }
+        println!("{name}: {good} read, {bad} refused in {:?}", started.elapsed());
+        assert!(bad > good);
+    }
+}
+
+#[test]
+fn corrupt_pngs_are_refused() {
+    let Some(folder) = folder("malformed/images") else { return };
+    for path in files(&folder).iter().filter(|p| p.extension().is_some_and(|e| e == "png")) {
+        let error = load(path).expect_err("a damaged file");
+        // Some have a damaged signature, which makes them files of no known format.
+        let signed = std::fs::read(path).expect("file of the corpus").starts_with(b"\x89PNG\r\n\x1a\n");
+        assert_eq!(matches!(error, AssetError::Format { .. }), signed, "{error}");
+    }
+}
+
+/// Flips bytes and cuts ends of valid files: decoders of hostile data must not panic.
+#[test]
+fn mutilated_images_never_panic() {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut random = move |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as usize) % below
+    };
+    let limits = Limits { image_pixels: 1 << 20, ..Limits::default() };
+    for name in ["images/png", "images/jpg", "images/exr"] {
+        let Some(folder) = folder(name) else { return };
+        for path in files(&folder) {
+            let original = std::fs::read(&path).expect("file of the corpus");
+            for _ in 0..if original.len() < 20_000 { 60 } else { 6 } {
+                let mut bytes = original.clone();
+                let reach = if random(2) == 0 { bytes.len() } else { bytes.len().min(600) };
+                for _ in 0..1 + random(4) {
+                    bytes[random(reach)] = random(256) as u8;
+                }
+                if random(4) == 0 {
+                    bytes.truncate(random(original.len()));
+                }
+                let _ = read(&bytes, "mutilated", limits);
+            }
+        }
+    }
+}
+
+#[test]
+fn other_formats_are_refused_by_name() {
+    let cases: [(&[u8], &str, &str); 7] = [
+        (b"#?RADIANCE\nFORMAT=32", "sky.hdr", "Radiance HDR"),
+        (b"BM\0\0\0\0\0\0", "a.bmp", "BMP"),
+        (b"GIF89a\0\0\0", "a.gif", "GIF"),
+        (b"RIFF\0\0\0\0WEBPVP8 ", "a.webp", "WebP"),
+        (b"\xabKTX 20\xbb\r\n\x1a\n", "a.ktx2", "KTX 2"),
+        (b"\0\0\x02\0\0\0\0", "a.TGA", "TGA"),
+        (b"hello", "a.png", "not an image of a known format"),
+    ];
+    for (bytes, name, word) in cases {
+        let error = read(bytes, name, Limits::default()).expect_err("unsupported");
+        let text = error.to_string();
+        assert!(matches!(error, AssetError::Unsupported { .. }), "{text}");
+        assert!(text.starts_with(name) && text.contains(word) && text.contains("OpenEXR"), "{text}");
+    }
+}
+
+#[test]
+fn image_limits_hold_before_decoding() {
+    let Some(folder) = folder("images/png/pngsuite") else { return };
+    let bytes = std::fs::read(folder.join("primary_basn2c08.png")).expect("file of the corpus");
+    let limits = |image_pixels| Limits { image_pixels, ..Limits::default() };
+    assert!(read(&bytes, "a", limits(32 * 32)).is_ok());
+    assert!(matches!(read(&bytes, "a", limits(32 * 32 - 1)), Err(AssetError::Limits { .. })));
+}

@@ -1,0 +1,62 @@
+//! What an integrator gets to know about lobes that it cannot evaluate for a light.
+use durer_core::{math::Vector3, spectrum::Spectrum};
+
+use super::Bsdf;
+
+/// Kinds of scattering that rays are spawned for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BranchKind {
+    /// Mirror reflection.
+    Reflection,
+    /// Refraction, or passing straight on.
+    Transmission,
+}
+
+/// A direction of a perfectly sharp lobe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// Which way.
+    pub kind: BranchKind,
+    /// Unit direction.
+    pub wi: Vector3,
+    /// What the radiance arriving from `wi` is multiplied with; never black.
+    pub weight: Spectrum,
+}
+
+/// The sharp directions of a [`Bsdf`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Branches {
+    list: [Option<Branch>; Bsdf::MOST_LOBES * 2],
+    /// Set if a lobe would have transmitted but reflects totally, with the weight that the transmitted ray would have
+    /// had and that is lost: Whitted's constant coefficient. Black where Fresnel's equations hand all of it to the
+    /// reflected ray.
+    pub total_internal_reflection: Option<Spectrum>,
+}
+
+impl Branches {
+    /// The branches, reflections before transmissions of the same lobe.
+    pub fn iter(&self) -> impl Iterator<Item = &Branch> {
+        self.list.iter().flatten()
+    }
+    /// Adds a branch unless it carries nothing.
+    pub(super) fn add(&mut self, kind: BranchKind, wi: Vector3, weight: Spectrum) {
+        if weight.is_black() {
+            return;
+        }
+        // A lobe adds two at most, so there is always room.
+        if let Some(place) = self.list.iter_mut().find(|b| b.is_none()) {
+            *place = Some(Branch { kind, wi, weight });
+        }
+    }
+}
+
+/// A glossy lobe as seen by an integrator that does not sample it: its main direction and how much it reflects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GlossyView {
+    /// Mirror direction.
+    pub wi: Vector3,
+    /// Directional albedo, less what a branch of the same lobe carries.
+    pub weight: Spectrum,
+    /// GGX roughness.
+    pub alpha: f32,
+}

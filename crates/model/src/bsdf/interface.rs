@@ -1,0 +1,68 @@
+//! A smooth boundary between two media: one reflected and one refracted direction.
+//!
+//! The side is read from `wo`: the ray enters when `wo.z > 0`. Radiance is not scaled by the square of the index on
+//! refraction: what is carried is Whitted's intensity, as seen by a camera outside (validation.md I4).
+use durer_core::{
+    math::{Normal3, Vector3},
+    spectrum::Spectrum,
+};
+
+use super::{BranchKind, Branches, fresnel_dielectric, lobe::mirrored, refract};
+
+/// How light is divided between reflection and transmission.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Split {
+    /// By Fresnel's equations; on total internal reflection everything is reflected.
+    Fresnel,
+    /// By Whitted's constants; on total internal reflection nothing is transmitted and the reflection stays as it is.
+    Constant {
+        /// `k_s`.
+        reflection: Spectrum,
+        /// `k_t`.
+        transmission: Spectrum,
+    },
+}
+
+/// A smooth dielectric interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    /// Index of refraction on the inside (z < 0), divided by that on the outside. Above 0.
+    pub eta: f32,
+    /// How light is divided.
+    pub split: Split,
+}
+
+impl Interface {
+    pub(super) fn add_branches(&self, wo: Vector3, branches: &mut Branches) {
+        let eta = if wo.z > 0.0 { self.eta } else { 1.0 / self.eta };
+        let refracted = refract(wo, Normal3::new(0.0, 0.0, 1.0), 1.0 / eta);
+        let (reflection, transmission) = match self.split {
+            Split::Fresnel => {
+                let f = fresnel_dielectric(wo.z.abs().min(1.0), eta);
+                (Spectrum::splat(f), Spectrum::splat(1.0 - f))
+            }
+            Split::Constant {
+                reflection,
+                transmission,
+            } => (reflection, transmission),
+        };
+        branches.add(BranchKind::Reflection, mirrored(wo), reflection);
+        match refracted {
+            Some(wi) => branches.add(BranchKind::Transmission, wi, transmission),
+            None if self.transmits() => branches.total_internal_reflection = Some(transmission),
+            None => {}
+        }
+    }
+    fn transmits(&self) -> bool {
+        !matches!(self.split, Split::Constant { transmission, .. } if transmission.is_black())
+    }
+    pub(super) fn tint(&self) -> Spectrum {
+        match self.split {
+            Split::Fresnel => Spectrum::ONE,
+            Split::Constant {
+                reflection,
+                transmission,
+            } => reflection + transmission,
+        }
+    }
+}

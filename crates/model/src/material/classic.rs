@@ -1,0 +1,91 @@
+//! The shading formula of Whitted (1980, section 2):
+//! `I = k_a I_a + k_d sum_j (N . L_j) I_j + k_s' sum_j (N . H_j)^n I_j + k_s S + k_t T`,
+//! with `S` and `T` the intensities arriving along the mirrored and the refracted ray.
+//!
+//! Whitted's `k_s` serves both the highlight and the mirrored ray; here they are two parameters, `specular` and
+//! `reflection`. All coefficients are constants: nothing keeps their sum below 1.
+use durer_core::math::Vector3;
+use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Material, share};
+use crate::{
+    ShadeCx, Surface,
+    bsdf::{Bsdf, Highlight, Interface, Lobe, Split},
+};
+
+/// The classic formula.
+#[derive(Debug)]
+pub struct Classic {
+    ambient: Option<ColorInput>,
+    diffuse: ColorInput,
+    specular: ColorInput,
+    exponent: f32,
+    reflection: ColorInput,
+    transmission: ColorInput,
+    eta: f32,
+}
+
+const BLACK: [f32; 3] = [0.0; 3];
+
+impl Kind for Classic {
+    type Output = Box<dyn Material>;
+    const SCHEMA: Schema = Schema {
+        name: "classic",
+        aliases: &["whitted"],
+        doc: "The classic formula: ambient, diffuse and highlight terms, mirrored and refracted rays with constant weights.",
+        params: &[
+            ParamSpec::new(
+                "ambient",
+                ParamType::ColorTexture,
+                ParamDefault::Unset,
+                "Coefficient of the ambient term; the diffuse coefficient if left out.",
+            )
+            .range(0.0, 1.0),
+            ParamSpec::color_texture("diffuse", [0.5; 3], "Coefficient of the diffuse term.").range(0.0, 1.0),
+            ParamSpec::color_texture("specular", BLACK, "Coefficient of the lights' highlights.").range(0.0, 1.0),
+            ParamSpec::float("exponent", 32.0, "Exponent of the highlights: larger is smaller and sharper.")
+                .range(0.0, 1e6),
+            ParamSpec::color_texture("reflection", BLACK, "Weight of the mirrored ray; none is traced if 0.")
+                .range(0.0, 1.0),
+            ParamSpec::color_texture("transmission", BLACK, "Weight of the refracted ray; opaque if 0.")
+                .range(0.0, 1.0),
+            ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.").range(0.1, 10.0),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let ambient = args.is_set("ambient").then(|| args.color_input("ambient"));
+        Some(Box::new(Self {
+            ambient,
+            diffuse: args.color_input("diffuse"),
+            specular: args.color_input("specular"),
+            exponent: args.float("exponent"),
+            reflection: args.color_input("reflection"),
+            transmission: args.color_input("transmission"),
+            eta: args.float("eta"),
+        }))
+    }
+}
+
+impl Material for Classic {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+        let at = surface.texture_at();
+        let mut bsdf = Bsdf::default().with(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
+        if let Some(ambient) = self.ambient {
+            bsdf = bsdf.with(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
+        }
+        let specular = share(cx, self.specular, &at);
+        if !specular.is_black() {
+            bsdf = bsdf.with(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
+        }
+        let reflection = share(cx, self.reflection, &at);
+        let transmission = share(cx, self.transmission, &at);
+        if !transmission.is_black() {
+            let split = Split::Constant { reflection, transmission };
+            bsdf.with(Lobe::Interface(Interface { eta: self.eta, split }))
+        } else if !reflection.is_black() {
+            bsdf.with(Lobe::Mirror { weight: reflection })
+        } else {
+            bsdf
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! The metallic-roughness material of glTF 2.0 (appendix B), with thin transmission and coverage.
+//!
+//! A GGX lobe (alpha = roughness²) whose `f0` runs from `((eta - 1) / (eta + 1))²` (dielectric) to the base colour
+//! (metal); below the dielectric's part of it a diffuse body of the base colour. The appendix dims the body by `1 - F` of
+//! each pair of directions; here it is `1 - E(wo)` with `E` the directional albedo of the dielectric's lobe (albedo
+//! scaling): as `E` is affine in `f0`, the whole never reflects more than arrives. It is not reciprocal.
+//!
+//! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight
+//! (KHR_materials_transmission). Coverage (`alphamode blend`) scales everything and lets the rest pass.
+use durer_core::{
+    math::{Frame, Vector3, float::sqr},
+    spectrum::{Color, Spectrum},
+};
+use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Material, normal_map, share};
+use crate::{
+    ShadeCx, Surface,
+    bsdf::{Bsdf, Glossy, Lobe, normal_reflectance},
+    texture::TextureAt,
+};
+
+/// What the alpha channel means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum AlphaMode {
+    Opaque,
+    /// Below the cut-off there is a hole.
+    Mask(f32),
+    /// It is the share of the surface that is there.
+    Blend,
+}
+
+/// The glTF material, the same from both sides.
+#[derive(Debug)]
+pub struct Principled {
+    base: ColorInput,
+    alpha: FloatInput,
+    mode: AlphaMode,
+    metallic: FloatInput,
+    roughness: FloatInput,
+    eta: f32,
+    transmission: FloatInput,
+    emission: ColorInput,
+    strength: f32,
+    normal: Option<ColorInput>,
+    normal_scale: f32,
+}
+
+impl Kind for Principled {
+    type Output = Box<dyn Material>;
+    const SCHEMA: Schema = Schema {
+        name: "principled",
+        aliases: &[],
+        doc: "The metallic-roughness material of glTF 2.0.",
+        params: &[
+            ParamSpec::color_texture("basecolor", [1.0; 3], "Colour of the body, or of a metal's reflection.")
+                .range(0.0, 1.0),
+            ParamSpec::float_texture("alpha", 1.0, "Coverage; see alphamode.").range(0.0, 1.0),
+            ParamSpec::new(
+                "alphamode",
+                ParamType::Choice(&["opaque", "mask", "blend"]),
+                ParamDefault::Text("opaque"),
+                "Whether alpha is ignored, cuts holes, or blends with what lies behind.",
+            ),
+            ParamSpec::float("alphacutoff", 0.5, "With mask: holes are where alpha is below this.").range(0.0, 1e6),
+            ParamSpec::float_texture("metallic", 0.0, "0 dielectric, 1 metal.").range(0.0, 1.0),
+            ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.").range(0.0, 1.0),
+            ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
+            ParamSpec::float_texture("transmission", 0.0, "Share of the body that is a thin clear sheet.")
+                .range(0.0, 1.0),
+            ParamSpec::color_texture("emission", [0.0; 3], "Radiance emitted.").range(0.0, f32::INFINITY),
+            ParamSpec::float("emissionstrength", 1.0, "Factor on emission.").range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "normal",
+                ParamType::ColorTexture,
+                ParamDefault::Unset,
+                "Normal map: a linear colour texture, n = 2 c - 1.",
+            ),
+            ParamSpec::float("normalscale", 1.0, "Factor on the slope of the normal map."),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let mode = match args.text("alphamode") {
+            "mask" => AlphaMode::Mask(args.float("alphacutoff")),
+            "blend" => AlphaMode::Blend,
+            _ => AlphaMode::Opaque,
+        };
+        let normal = args.is_set("normal").then(|| args.color_input("normal"));
+        Some(Box::new(Self {
+            base: args.color_input("basecolor"),
+            alpha: args.float_input("alpha"),
+            mode,
+            metallic: args.float_input("metallic"),
+            roughness: args.float_input("roughness"),
+            eta: args.float("eta"),
+            transmission: args.float_input("transmission"),
+            emission: args.color_input("emission"),
+            strength: args.float("emissionstrength"),
+            normal,
+            normal_scale: args.float("normalscale"),
+        }))
+    }
+}
+
+impl Principled {
+    fn alpha(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        cx.float(self.alpha, at) * at.vertex_color[3]
+    }
+    /// Share of the surface that is there.
+    fn coverage(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        match self.mode {
+            AlphaMode::Blend => self.alpha(cx, at).clamp(0.0, 1.0),
+            AlphaMode::Opaque | AlphaMode::Mask(_) => 1.0,
+        }
+    }
+    fn base(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        let [r, g, b, _] = at.vertex_color;
+        let vertex = cx.basis.reflectance(Color::new(r, g, b));
+        (share(cx, self.base, at) * vertex).map(|v| v.clamp(0.0, 1.0))
+    }
+}
+
+impl Material for Principled {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        let at = surface.texture_at();
+        if let Some(map) = self.normal {
+            surface.n_s = normal_map::tilted(surface, cx.color(map, &at), self.normal_scale, wo);
+        }
+        let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
+        let (base, coverage) = (self.base(cx, &at), self.coverage(cx, &at));
+        let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
+
+        let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
+        let dielectric = Glossy { f0: dielectric_f0, alpha: sqr(unit(self.roughness)), scale: coverage };
+        let local_wo = Frame::from_z(surface.n_s).to_local(wo);
+        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
+        let body = base * below * ((1.0 - metallic) * coverage);
+
+        let f0 = dielectric_f0 * (1.0 - metallic) + base * metallic;
+        let passing = body * transmission + Spectrum::splat(1.0 - coverage);
+        Bsdf::default()
+            .with(Lobe::Diffuse { albedo: body * (1.0 - transmission) })
+            .with(Lobe::Glossy(Glossy { f0, ..dielectric }))
+            .with(Lobe::PassThrough { weight: passing })
+    }
+    fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        cx.basis.emission(cx.color(self.emission, at)) * (self.strength * self.coverage(cx, at))
+    }
+    fn has_holes(&self) -> bool {
+        matches!(self.mode, AlphaMode::Mask(_))
+    }
+    fn is_hole(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> bool {
+        matches!(self.mode, AlphaMode::Mask(cutoff) if self.alpha(cx, at) < cutoff)
+    }
+}

@@ -1,0 +1,160 @@
+//! Triangle meshes: their description, and the surface at a hit.
+//!
+//! `P = b_0 p_0 + b_1 p_1 + b_2 p_2` with `b_0 = 1 - u - v`, `b_1 = u`, `b_2 = v` (lecture, barycentric coordinates).
+//! Partial derivatives solve `p_i = p + u_i dpdu + v_i dpdv` for the triangle's texture coordinates (Physically Based
+//! Rendering, 4th edition, section 6.5.2); the error of the point is that of section 6.8.5. Finding the hit is the
+//! kernel's business (`durer-accel`).
+use durer_core::{
+    glam::DVec3,
+    math::{Frame, Normal3, Point2, Point3, Vector3, error::gamma},
+};
+use durer_scene::{Args, Kind, Mesh, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::Geometry;
+use crate::Surface;
+
+/// The word `trianglemesh`.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleMesh;
+
+impl Kind for TriangleMesh {
+    type Output = Geometry;
+    const SCHEMA: Schema = Schema {
+        name: "trianglemesh",
+        aliases: &[],
+        doc: "Triangles. The outside is where vertices are seen counter-clockwise, unless vertex normals say otherwise.",
+        params: &[
+            ParamSpec::new("P", ParamType::Point3s, ParamDefault::Required, "Vertices.").unit("m"),
+            ParamSpec::new(
+                "indices",
+                ParamType::Ints,
+                ParamDefault::Unset,
+                "Three vertices per triangle, counted from 0; may be left out if there are just three vertices.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new("N", ParamType::Normals, ParamDefault::Unset, "Shading normal of each vertex."),
+            ParamSpec::new("uv", ParamType::Point2s, ParamDefault::Unset, "Texture coordinates of each vertex."),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Geometry> {
+        if !args.is_sound() {
+            return None;
+        }
+        let positions: Vec<Point3> = args.triples("P").into_iter().map(Point3::from).collect();
+        let indices = args.ints("indices");
+        let (triples, rest) = indices.as_chunks::<3>();
+        if !rest.is_empty() {
+            args.error("indices", format!("\"indices\" has {} values, expected a multiple of 3", indices.len()));
+        }
+        let mut triangles: Vec<[u32; 3]> = triples.iter().map(|t| t.map(|i| i.max(0) as u32)).collect();
+        if !args.is_set("indices") {
+            triangles.push([0, 1, 2]);
+            if positions.len() != 3 {
+                let message = format!("trianglemesh needs \"integer indices\" for {} vertices", positions.len());
+                args.error("indices", message);
+            }
+        }
+        let normals = args.triples("N").into_iter().map(Normal3::from).collect();
+        let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
+        let mesh = Mesh { positions, indices: triangles, normals, uvs, ..Mesh::default() };
+        if args.is_sound()
+            && let Err(error) = mesh.validate()
+        {
+            let name = match error {
+                durer_scene::MeshError::Index { .. } => "indices",
+                durer_scene::MeshError::Length { attribute: "normals", .. } => "N",
+                durer_scene::MeshError::Length { .. } => "uv",
+                durer_scene::MeshError::NotFinite { .. } => "P",
+            };
+            args.error(name, error.to_string());
+        }
+        args.is_sound().then_some(Geometry::Mesh(mesh))
+    }
+}
+
+/// Weights of the three vertices of one triangle.
+struct Weights {
+    vertices: [usize; 3],
+    b: [f32; 3],
+}
+
+impl Weights {
+    /// The weighted sum of an attribute; `None` if the mesh has none.
+    fn sum<T: Copy, const N: usize>(&self, list: &[T], numbers: impl Fn(T) -> [f32; N]) -> Option<[f32; N]> {
+        let [p, q, r] = self.vertices.map(|i| list.get(i).copied().map(&numbers));
+        let (p, q, r) = (p?, q?, r?);
+        Some(std::array::from_fn(|i| self.b[0] * p[i] + self.b[1] * q[i] + self.b[2] * r[i]))
+    }
+}
+
+/// The place where triangle `prim` of a valid `mesh` was hit, in object space; `u` and `v` weigh its vertices 1 and 2.
+///
+/// The geometric normal follows the counter-clockwise winding, turned to the side of the vertex normals if there are any
+/// (as pbrt does). A triangle without area gets the z axis if nothing better is known.
+pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
+    let vertices = mesh.indices[prim as usize].map(|i| i as usize);
+    let weights = Weights { vertices, b: [1.0 - u - v, u, v] };
+    let corners = vertices.map(|i| mesh.positions[i]);
+    let [p0, p1, p2] = corners.map(Point3::to_f64);
+    let [b0, b1, b2] = weights.b.map(f64::from);
+    let p = Point3::from_f64(p0 * b0 + p1 * b1 + p2 * b2);
+    let p_error = Vector3::from_f64((p0 * b0).abs() + (p1 * b1).abs() + (p2 * b2).abs()) * gamma(7);
+
+    let shading = weights.sum(&mesh.normals, Normal3::to_array).map(Normal3::from).and_then(unit);
+    let winding = unit(Normal3::from_f64((p1 - p0).cross(p2 - p0).normalize_or_zero()));
+    let n_g = match (winding, shading) {
+        (Some(n), Some(s)) => n.face_forward(s),
+        (Some(n), None) | (None, Some(n)) => n,
+        (None, None) => Normal3::new(0.0, 0.0, 1.0),
+    };
+    let n_s = shading.unwrap_or(n_g);
+    let uvs = match mesh.uvs.as_slice() {
+        [] => [Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(1.0, 1.0)],
+        uvs => vertices.map(|i| uvs[i]),
+    };
+    let mix = |c: fn(Point2) -> f32| weights.b[0] * c(uvs[0]) + weights.b[1] * c(uvs[1]) + weights.b[2] * c(uvs[2]);
+    let (dpdu, dpdv) = tangents(mesh, &weights, n_s)
+        .or_else(|| partials([p0, p1, p2], uvs))
+        .unwrap_or_else(|| {
+            let frame = Frame::from_z(n_g);
+            (frame.x, frame.y)
+        });
+    Surface {
+        p,
+        p_error,
+        n_g,
+        n_s,
+        uv: Point2::new(mix(|c| c.x), mix(|c| c.y)),
+        dpdu,
+        dpdv,
+        vertex_color: weights.sum(&mesh.colors, |c| c).unwrap_or([1.0; 4]),
+    }
+}
+
+/// `n` at unit length; `None` if it has no direction.
+fn unit(n: Normal3) -> Option<Normal3> {
+    let n = Normal3::from_f64(n.to_f64().normalize_or_zero());
+    (n != Normal3::ZERO && n.is_finite()).then_some(n)
+}
+
+/// The frame of the vertices' tangents: `dpdu = t`, `dpdv = w cross(n, t)` (glTF 2.0, section 3.7.2.1).
+fn tangents(mesh: &Mesh, weights: &Weights, n: Normal3) -> Option<(Vector3, Vector3)> {
+    let [x, y, z, _] = weights.sum(&mesh.tangents, |t| t)?;
+    let t = Vector3::new(x, y, z);
+    // Handedness is the same at all three vertices of a sound file; a mean of both would be no handedness.
+    let w = mesh.tangents[weights.vertices[0]][3];
+    let b = n.cross(t) * w;
+    (b.length_squared() > 0.0 && b.is_finite()).then_some((t, b))
+}
+
+/// The derivatives of the point by the texture coordinates; `None` if those, or the vertices, span no area.
+fn partials([p0, p1, p2]: [DVec3; 3], uvs: [Point2; 3]) -> Option<(Vector3, Vector3)> {
+    let [(u0, v0), (u1, v1), (u2, v2)] = uvs.map(|c| (f64::from(c.x), f64::from(c.y)));
+    let (du02, dv02, du12, dv12) = (u0 - u2, v0 - v2, u1 - u2, v1 - v2);
+    let (dp02, dp12) = (p0 - p2, p1 - p2);
+    let determinant = du02 * dv12 - dv02 * du12;
+    let dpdu = Vector3::from_f64((dp02 * dv12 - dp12 * dv02) / determinant);
+    let dpdv = Vector3::from_f64((dp12 * du02 - dp02 * du12) / determinant);
+    let spans = dpdu.to_f64().cross(dpdv.to_f64()).length_squared() > 0.0;
+    (spans && dpdu.is_finite() && dpdv.is_finite()).then_some((dpdu, dpdv))
+}

@@ -1,0 +1,173 @@
+//! Sphere around the origin, whole or cut.
+//!
+//! Implicit form `H(P) = P.P - r^2 = 0` (lecture, "Sphere Representation"; Physically Based Rendering, 4th edition, section
+//! 6.2). The ray's foot point `l = o - (o.d / d.d) d` is where it comes nearest to the centre; the roots lie half a chord
+//! before and behind it, `t = -o.d / d.d -+ sqrt((r - |l|)(r + |l|) / d.d)`, which does not cancel like `b^2 - 4ac`
+//! (section 6.8.3). All in f64 from the f32 ray, with a bound on the error of both roots.
+use std::f32::consts::{PI, TAU};
+
+use durer_core::{
+    glam::DVec3,
+    math::{Bounds3, Normal3, Point2, Point3, Ray, Vector3, error::gamma, float},
+};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Geometry, Shape, ShapeHit, arc_angle};
+use crate::Surface;
+
+/// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
+/// on the z axis; the outside is away from the centre. `u = phi / phi_max`; `v` runs from 0 at `z_min` to 1 at `z_max`,
+/// linear in the polar angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    radius: f32,
+    z_min: f32,
+    z_max: f32,
+    /// Radians.
+    phi_max: f32,
+    /// Polar angles at `z_min` (the larger) and `z_max`, radians.
+    theta: (f32, f32),
+    whole: bool,
+}
+
+/// Both places where a line meets the sphere.
+struct Roots {
+    near: f64,
+    far: f64,
+    /// Bound on the absolute error of both.
+    error: f64,
+}
+
+impl Sphere {
+    /// A whole sphere.
+    pub fn new(radius: f32) -> Self {
+        Self::cut(radius, -radius, radius, 360.0)
+    }
+    /// The part between two heights (in any order, clamped to the sphere) and from phi = 0 to `phi_max` degrees.
+    pub fn cut(radius: f32, z_min: f32, z_max: f32, phi_max: f32) -> Self {
+        let clamp = |z: f32| z.clamp(-radius, radius);
+        let (z_min, z_max) = (clamp(z_min.min(z_max)), clamp(z_min.max(z_max)));
+        let theta = (float::acos(z_min / radius), float::acos(z_max / radius));
+        let phi_max = arc_angle(phi_max);
+        let whole = z_min == -radius && z_max == radius && phi_max == TAU;
+        let theta = if whole { (PI, 0.0) } else { theta };
+        Self { radius, z_min, z_max, phi_max, theta, whole }
+    }
+
+    fn roots(&self, ray: &Ray) -> Option<Roots> {
+        let (o, d, r) = (ray.o.to_f64(), ray.d.to_f64(), f64::from(self.radius));
+        let a = d.length_squared();
+        let middle = -o.dot(d) / a;
+        let foot = (o + d * middle).length();
+        let room = (r - foot) * (r + foot);
+        // False for the NaN of a zero or infinite direction as well.
+        if !(room >= 0.0 && a > 0.0 && a.is_finite()) {
+            return None;
+        }
+        let half = (room / a).sqrt();
+        // The foot point is off by some roundings of |o|; what that does to a square root is
+        // |sqrt(x + e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
+        let reach = o.length() + r;
+        let room_error = 16.0 * f64::EPSILON * reach * reach;
+        let half_error = (room_error / room.sqrt()).min(room_error.sqrt()) / a.sqrt();
+        let error = half_error + 8.0 * f64::EPSILON * (o.length() / a.sqrt() + middle.abs() + half);
+        Some(Roots { near: middle - half, far: middle + half, error })
+    }
+
+    /// The point at `t`, put back on the sphere.
+    fn point(&self, ray: &Ray, t: f64) -> DVec3 {
+        let p = ray.o.to_f64() + ray.d.to_f64() * t;
+        let length = p.length();
+        if length > 0.0 { p * (f64::from(self.radius) / length) } else { DVec3::new(0.0, 0.0, self.radius.into()) }
+    }
+
+    fn keeps(&self, p: DVec3) -> bool {
+        self.whole
+            || (p.z >= f64::from(self.z_min)
+                && p.z <= f64::from(self.z_max)
+                && (self.phi_max == TAU || phi(p) <= self.phi_max))
+    }
+}
+
+/// Azimuth in `[0, 2 pi]`.
+fn phi(p: DVec3) -> f32 {
+    super::azimuth(p.x as f32, p.y as f32)
+}
+
+impl Shape for Sphere {
+    fn bounds(&self) -> Bounds3 {
+        let r = self.radius;
+        Bounds3::new(Point3::new(-r, -r, self.z_min), Point3::new(r, r, self.z_max))
+    }
+
+    fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
+        let roots = self.roots(ray)?;
+        [roots.near, roots.far].into_iter().find_map(|t| {
+            let rounded = t as f32;
+            let valid = t - f64::from(ray.t_min) > roots.error && rounded.is_finite() && ray.contains(rounded);
+            (valid && (self.whole || self.keeps(self.point(ray, t)))).then_some(ShapeHit { t: rounded, u: 0.0, v: 0.0 })
+        })
+    }
+
+    fn surface(&self, ray: &Ray, hit: &ShapeHit) -> Surface {
+        // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
+        let wanted = f64::from(hit.t);
+        let t = self.roots(ray).map_or(wanted, |roots| {
+            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() { roots.near } else { roots.far }
+        });
+        let exact = self.point(ray, t);
+        let p = Point3::from_f64(exact);
+        let n = Normal3::from_f64(exact / f64::from(self.radius));
+        let across = exact.truncate().length();
+        let theta = float::atan2(across as f32, p.z);
+        let (bottom, top) = self.theta;
+        // A pole has no azimuth: any will do.
+        let (cos_phi, sin_phi) = if across > 0.0 { (exact.x / across, exact.y / across) } else { (1.0, 0.0) };
+        let down = Vector3::from_f64(DVec3::new(exact.z * cos_phi, exact.z * sin_phi, -across));
+        Surface {
+            p,
+            p_error: (p - Point3::ZERO).abs() * gamma(5),
+            n_g: n,
+            n_s: n,
+            uv: Point2::new(phi(exact) / self.phi_max, (theta - bottom) / (top - bottom)),
+            dpdu: Vector3::new(-p.y, p.x, 0.0) * self.phi_max,
+            dpdv: down * (top - bottom),
+            vertex_color: [1.0; 4],
+        }
+    }
+
+    fn area(&self) -> f32 {
+        self.phi_max * self.radius * (self.z_max - self.z_min)
+    }
+}
+
+impl Kind for Sphere {
+    type Output = Geometry;
+    const SCHEMA: Schema = Schema {
+        name: "sphere",
+        aliases: &[],
+        doc: "A sphere around the origin, whole or cut by two heights and an angle. Its poles lie on the z axis.",
+        params: &[
+            ParamSpec::float("radius", 1.0, "Radius; more than 0.").unit("m").range(0.0, f32::INFINITY),
+            ParamSpec::new("zmin", ParamType::Float, ParamDefault::Unset, "Lowest z kept; default -radius.").unit("m"),
+            ParamSpec::new("zmax", ParamType::Float, ParamDefault::Unset, "Highest z kept; default radius.").unit("m"),
+            ParamSpec::float("phimax", 360.0, "Angle kept about the z axis, from the x axis towards y; more than 0.")
+                .unit("deg")
+                .range(0.0, 360.0),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Geometry> {
+        let (radius, phi_max) = (args.float("radius"), args.float("phimax"));
+        for (name, value) in [("radius", radius), ("phimax", phi_max)] {
+            if value == 0.0 {
+                args.error(name, format!("\"{name}\" is 0, expected more than 0"));
+            }
+        }
+        let z_min = args.optional_float("zmin").unwrap_or(-radius);
+        let z_max = args.optional_float("zmax").unwrap_or(radius);
+        if args.is_sound() && z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {
+            args.error("zmin", format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"));
+        }
+        args.is_sound().then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
+    }
+}

@@ -1,0 +1,229 @@
+//! Shapes into the kernel: still meshes used once are merged into one tree, the rest become instances.
+use std::{
+    collections::{HashMap, hash_map::Entry},
+    sync::Arc,
+};
+
+use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, Engine, GeometryId, Placement, Triangles};
+use durer_core::{
+    Id,
+    glam::DAffine3,
+    math::{Bounds3, Motion, Normal3, Point3, Transform, Vector3},
+};
+use durer_model::shape::{Geometry, Shape};
+use durer_scene::{Diagnostics, Location, Mesh, SceneDesc, ShapeDesc, ShapeSource};
+
+use crate::{
+    Object,
+    scene::{MergedMesh, PlacedShape, Target},
+};
+
+/// What becomes of the shapes of a description.
+pub(super) struct Placed {
+    pub(super) accel: Accel,
+    pub(super) objects: Vec<Object>,
+    pub(super) targets: Vec<Target>,
+    pub(super) merged: Vec<MergedMesh>,
+    pub(super) shapes: Vec<PlacedShape>,
+    pub(super) movers: Vec<PlacedShape>,
+}
+
+/// How shapes are placed.
+pub(super) struct Placing<'a> {
+    pub(super) desc: &'a SceneDesc,
+    pub(super) render_from_world: DAffine3,
+    pub(super) default_material: u32,
+    pub(super) engine: Engine,
+}
+
+/// A mesh on its way into the kernel.
+struct PendingMesh {
+    object: Id<Object>,
+    mesh: Arc<Mesh>,
+    motion: Motion,
+    /// Several shapes use the mesh.
+    shared: bool,
+}
+
+/// What the shapes of a description become on their way into the kernel.
+#[derive(Default)]
+struct Pending {
+    meshes: Vec<PendingMesh>,
+    shapes: Vec<PlacedShape>,
+    movers: Vec<(PlacedShape, Motion)>,
+}
+
+impl Pending {
+    fn shape(&mut self, shape: Box<dyn Shape>, object: Id<Object>, motion: Motion) {
+        let place = |m: Transform| PlacedShape {
+            shape,
+            object,
+            render_from_object: m,
+            object_from_render: m.inverse(),
+        };
+        if motion.is_still() {
+            self.shapes.push(place(Transform::from_f64(&motion.at(0.0))));
+        } else {
+            self.movers.push((place(Transform::IDENTITY), motion));
+        }
+    }
+}
+
+/// World bounds of everything finite, at the first key of moving things; empty if there is nothing finite.
+pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bounds3 {
+    let mut bounds = Bounds3::EMPTY;
+    for (shape, geometry) in desc.shapes.iter().zip(shapes) {
+        let m = shape.world_from_object.at(0.0);
+        let place = |p: &Point3| Point3::from_f64(m.transform_point3(p.to_f64()));
+        let local = match (geometry, &shape.source) {
+            (Some(Geometry::Mesh(mesh)), _) => Bounds3::around(mesh.positions.iter().map(place)),
+            (Some(Geometry::Shape(shape)), _) => {
+                let b = shape.bounds();
+                if b.is_finite() { Bounds3::around(b.corners().iter().map(place)) } else { Bounds3::EMPTY }
+            }
+            (None, ShapeSource::Mesh(id)) => match desc.meshes.get(id.index()) {
+                Some(mesh) => Bounds3::around(mesh.positions.iter().map(place)),
+                None => Bounds3::EMPTY,
+            },
+            (None, ShapeSource::Node(_)) => Bounds3::EMPTY,
+        };
+        bounds = bounds.union(local);
+    }
+    bounds
+}
+
+impl Placing<'_> {
+    /// Places all shapes and builds the kernel; `None` if there was something to complain about.
+    pub(super) fn place(&self, geometry: Vec<Option<Geometry>>, diagnostics: &mut Diagnostics) -> Option<Placed> {
+        let mut uses = vec![0u32; self.desc.meshes.len()];
+        for shape in &self.desc.shapes {
+            if let ShapeSource::Mesh(id) = shape.source {
+                uses[id.index()] += 1;
+            }
+        }
+        let mut pending = Pending::default();
+        let mut objects = Vec::new();
+        for (shape, geometry) in self.desc.shapes.iter().zip(geometry) {
+            let object = Id::new(objects.len() as u32);
+            objects.push(self.object(shape, objects.len()));
+            let motion = shape.world_from_object.within(&self.render_from_world);
+            if motion.keys().iter().any(|(_, m)| !Transform::from_f64(m).is_invertible()) {
+                diagnostics.error(at(shape), "the shape's transform cannot be inverted: it flattens space");
+                continue;
+            }
+            match (geometry, &shape.source) {
+                (Some(Geometry::Mesh(mesh)), _) => {
+                    pending.meshes.push(PendingMesh { object, mesh: Arc::new(mesh), motion, shared: false });
+                }
+                (Some(Geometry::Shape(shape)), _) => pending.shape(shape, object, motion),
+                (None, ShapeSource::Mesh(id)) => {
+                    let mesh = self.desc.meshes[id.index()].clone();
+                    let shared = uses[id.index()] > 1;
+                    pending.meshes.push(PendingMesh { object, mesh, motion, shared });
+                }
+                (None, ShapeSource::Node(_)) => {}
+            }
+        }
+        match self.build(pending, objects) {
+            Ok(placed) => Some(placed),
+            Err(error) => {
+                diagnostics.error(Location::None, error.to_string());
+                None
+            }
+        }
+    }
+
+    fn object(&self, shape: &ShapeDesc, index: usize) -> Object {
+        let kind = match &shape.source {
+            ShapeSource::Node(node) => node.kind.as_str(),
+            ShapeSource::Mesh(_) => "mesh",
+        };
+        Object {
+            name: if shape.name.is_empty() { format!("{kind} {index}") } else { shape.name.clone() },
+            material: shape.material.map_or(self.default_material, |m| m.index() as u32),
+            reverse_orientation: shape.reverse_orientation,
+        }
+    }
+
+    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, BuildError> {
+        let mut kernel = AccelBuilder::new(BuildOptions { engine: self.engine, ..BuildOptions::default() });
+        let mut targets = Vec::new();
+        let (single, several): (Vec<_>, Vec<_>) =
+            pending.meshes.into_iter().partition(|m| !m.shared && m.motion.is_still());
+
+        let (merged, triangles) = merge(single);
+        if !merged.is_empty() {
+            let geometry = kernel.triangles(triangles)?;
+            kernel.instance(geometry, Placement::Identity)?;
+            targets.push(Target::Merged);
+        }
+        if !pending.shapes.is_empty() {
+            let bounds = pending.shapes.iter().map(|s| s.render_from_object.bounds(&s.shape.bounds()));
+            let geometry = kernel.user(bounds.collect())?;
+            kernel.instance(geometry, Placement::Identity)?;
+            targets.push(Target::Shapes);
+        }
+        for (index, (mover, motion)) in pending.movers.iter().enumerate() {
+            let geometry = kernel.user(vec![mover.shape.bounds()])?;
+            kernel.instance(geometry, Placement::from_motion(motion))?;
+            targets.push(Target::Mover(index as u32));
+        }
+        let mut known: HashMap<*const Mesh, GeometryId> = HashMap::new();
+        for PendingMesh { object, mesh, motion, .. } in several {
+            let geometry = match known.entry(Arc::as_ptr(&mesh)) {
+                Entry::Occupied(known) => *known.get(),
+                Entry::Vacant(new) => {
+                    let (positions, indices) = (mesh.positions.clone(), mesh.indices.clone());
+                    *new.insert(kernel.triangles(Triangles { positions, indices })?)
+                }
+            };
+            kernel.instance(geometry, Placement::from_motion(&motion))?;
+            targets.push(Target::Mesh(object, mesh));
+        }
+        let movers = pending.movers.into_iter().map(|(mover, _)| mover).collect();
+        Ok(Placed { accel: kernel.build(), objects, targets, merged, shapes: pending.shapes, movers })
+    }
+}
+
+/// All meshes in render space, one after another.
+fn merge(meshes: Vec<PendingMesh>) -> (Vec<MergedMesh>, Triangles) {
+    let mut merged = Vec::new();
+    let mut all = Triangles::default();
+    for PendingMesh { object, mesh, motion, .. } in meshes.into_iter().filter(|m| !m.mesh.indices.is_empty()) {
+        let mesh = baked(&mesh, &motion.at(0.0));
+        let base = all.positions.len() as u32;
+        let first_triangle = all.indices.len() as u32;
+        all.positions.extend_from_slice(&mesh.positions);
+        all.indices.extend(mesh.indices.iter().map(|t| t.map(|i| i + base)));
+        merged.push(MergedMesh { first_triangle, object, mesh });
+    }
+    (merged, all)
+}
+
+fn at(shape: &ShapeDesc) -> Location {
+    match &shape.source {
+        ShapeSource::Node(node) => node.at.clone(),
+        ShapeSource::Mesh(_) => Location::None,
+    }
+}
+
+/// The mesh in render space, each coordinate rounded once. A mirroring turns the triangles, so that counter-clockwise
+/// still means outside.
+fn baked(mesh: &Mesh, m: &DAffine3) -> Mesh {
+    let transform = Transform::from_f64(m);
+    let mirrored = transform.swaps_handedness();
+    let tangent = |t: &[f32; 4]| {
+        let v = transform.vector(Vector3::new(t[0], t[1], t[2]));
+        [v.x, v.y, v.z, if mirrored { -t[3] } else { t[3] }]
+    };
+    let place = |p: &Point3| Point3::from_f64(m.transform_point3(p.to_f64()));
+    let turn = |n: &Normal3| transform.normal(*n);
+    Mesh {
+        positions: mesh.positions.iter().map(place).collect(),
+        indices: mesh.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect(),
+        normals: mesh.normals.iter().map(turn).collect(),
+        uvs: mesh.uvs.clone(),
+        tangents: mesh.tangents.iter().map(tangent).collect(),
+        colors: mesh.colors.clone(),
+    }
+}

@@ -1,0 +1,152 @@
+//! From a [`SceneDesc`] to a frozen [`Scene`]: every kind is looked up, every parameter checked, every reference
+//! resolved, the camera and lights a file lacks are made up, and the kernel is built. After this rendering cannot fail.
+//!
+//! Placements are composed in f64 and the world is moved so that the camera sits at the origin (the camera-world space
+//! of pbrt); coordinates are rounded to f32 once. Scenes far from the origin stay watertight.
+
+mod automatic;
+mod geometry;
+mod nodes;
+
+use durer_accel::Engine;
+use durer_core::{
+    glam::{DAffine3, DVec3},
+    math::{Interval, Transform},
+};
+use durer_scene::{Assets, CameraDesc, Diagnostics, Location, Missing, Node, SceneDesc};
+
+use crate::{Scene, View, integrator::Integrator};
+
+pub use nodes::integrator;
+
+/// How to compile, beyond what the description says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompileOptions {
+    /// Hierarchy or brute force.
+    pub engine: Engine,
+    /// What becomes of missing images.
+    pub missing: Missing,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Camera, by name or index; the first if `None`.
+    pub camera: Option<String>,
+    /// The moment the camera is placed for, and the span in which things move.
+    pub shutter: Interval,
+}
+
+impl CompileOptions {
+    /// Options for a picture of this size.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            engine: Engine::default(),
+            missing: Missing::default(),
+            width,
+            height,
+            camera: None,
+            shutter: Interval::point(0.0),
+        }
+    }
+}
+
+/// Compiles a scene; `None` if `diagnostics` got an error.
+pub fn compile(
+    desc: &SceneDesc,
+    assets: &dyn Assets,
+    options: &CompileOptions,
+    diagnostics: &mut Diagnostics,
+) -> Option<Scene> {
+    let mut nodes = nodes::Builder { desc, assets, missing: options.missing, diagnostics };
+    let textures = nodes.textures();
+    let mut materials = nodes.materials();
+    let shapes = nodes.shapes();
+    let bounds = geometry::world_bounds(desc, &shapes);
+    let camera = chosen_camera(desc, options, nodes.diagnostics)
+        .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
+    let world_from_camera = camera.world_from_camera.at(options.shutter.min.into());
+    let origin = world_from_camera.translation;
+    let view = view(&mut nodes, &camera, &world_from_camera, options);
+    let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
+    let lights = nodes.lights(&lights, -origin);
+
+    let default_material = materials.len() as u32;
+    materials.push(nodes::default_material(nodes.diagnostics)?);
+    let placed = geometry::Placing {
+        desc,
+        render_from_world: DAffine3::from_translation(-origin),
+        default_material,
+        engine: options.engine,
+    }
+    .place(shapes, diagnostics);
+    let (view, placed) = (view?, placed?);
+    if diagnostics.has_errors() {
+        return None;
+    }
+    let has_holes = materials.iter().any(|m| m.has_holes());
+    let (lights, light_names) = lights.into_iter().unzip();
+    Some(Scene {
+        objects: placed.objects,
+        materials,
+        textures,
+        lights,
+        light_names,
+        view,
+        accel: placed.accel,
+        targets: placed.targets,
+        merged: placed.merged,
+        shapes: placed.shapes,
+        movers: placed.movers,
+        has_holes,
+    })
+}
+
+/// The camera the options name, else the first.
+fn chosen_camera(
+    desc: &SceneDesc,
+    options: &CompileOptions,
+    diagnostics: &mut Diagnostics,
+) -> Option<CameraDesc> {
+    let Some(wanted) = &options.camera else { return desc.cameras.first().cloned() };
+    let by_name = desc.cameras.iter().find(|c| &c.name == wanted);
+    let found = by_name.or_else(|| desc.cameras.get(wanted.parse::<usize>().ok()?));
+    if found.is_none() {
+        let names: Vec<String> = (0..desc.cameras.len())
+            .map(|i| i.to_string())
+            .chain(desc.cameras.iter().map(|c| c.name.clone()).filter(|n| !n.is_empty()))
+            .collect();
+        diagnostics.unknown(Location::None, "camera", wanted, names.iter().map(String::as_str));
+    }
+    found.cloned()
+}
+
+fn view(
+    nodes: &mut nodes::Builder<'_>,
+    desc: &CameraDesc,
+    world_from_camera: &DAffine3,
+    options: &CompileOptions,
+) -> Option<View> {
+    let mut camera = nodes.camera(&desc.node)?;
+    camera.fit(options.width, options.height);
+    let rotation = DAffine3 { translation: DVec3::ZERO, ..*world_from_camera };
+    let render_from_camera = Transform::from_f64(&rotation);
+    if !render_from_camera.is_invertible() {
+        nodes.diagnostics.error(desc.node.at.clone(), "the camera's transform cannot be inverted");
+        return None;
+    }
+    Some(View {
+        camera,
+        render_from_camera,
+        world_from_render: world_from_camera.translation,
+        width: options.width,
+        height: options.height,
+    })
+}
+
+/// The integrator of a description that asks for none.
+pub fn default_integrator() -> Node {
+    Node::new("whitted", durer_scene::Params::new())
+}
+
+/// A boxed integrator, as [`integrator`] builds it.
+pub type BoxedIntegrator = Box<dyn Integrator>;

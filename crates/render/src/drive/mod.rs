@@ -1,0 +1,242 @@
+//! Rendering: tiles over all cores, in passes that refine the whole picture.
+//!
+//! A sample is a pure function of (scene, seed, pixel, index), and the film adds in a fixed order: the picture has the
+//! same bits for any number of threads. Integrators know nothing of this file.
+
+mod pass;
+mod settings;
+
+pub use settings::Settings;
+
+use std::sync::{
+    Mutex,
+    atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+use durer_core::{sampling::Sampler, spectrum::Basis};
+
+use crate::{
+    Contribution, PathRay, SampleCx, Scene, Value,
+    film::{BLOCK, Film, Pixel, Tile},
+    integrator::Integrator,
+    probe::{Counters, RayTree},
+};
+
+/// Edge of a tile in pixels.
+const TILE: u32 = 32;
+
+/// Someone who watches a render; called from all threads.
+pub trait Progress: Sync {
+    /// Another tile is done.
+    fn advance(&self, samples: u64, rays: u64);
+}
+
+/// Nobody watches.
+impl Progress for () {
+    fn advance(&self, _: u64, _: u64) {}
+}
+
+/// A sample that was infinite or NaN; it was left out of the film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadSample {
+    /// Its pixel.
+    pub pixel: [u32; 2],
+    /// Its index within the pixel.
+    pub sample: u32,
+}
+
+/// What rendering leaves behind.
+#[derive(Debug)]
+pub struct Rendered {
+    /// The picture.
+    pub film: Film,
+    /// Samples taken.
+    pub samples: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Counts, if they were asked for.
+    pub counters: Option<Counters>,
+    /// Number of infinite and NaN samples.
+    pub bad_samples: u64,
+    /// The first of them, by sample index, row and column.
+    pub first_bad: Option<BadSample>,
+    /// True if the picture is not complete.
+    pub cancelled: bool,
+}
+
+/// Whether statistics are gathered; they cost time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gather {
+    /// Nothing but rays.
+    #[default]
+    Rays,
+    /// Everything [`Counters`] hold.
+    Counters,
+}
+
+/// A scene, an integrator and the settings of one picture.
+pub struct Job<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Light transport.
+    pub integrator: &'a dyn Integrator,
+    /// Samples, seed, threads, crop.
+    pub settings: Settings,
+}
+
+impl<'a> Job<'a> {
+    fn cx(&self) -> SampleCx<'a> {
+        SampleCx { scene: self.scene, basis: Basis::Rgb }
+    }
+
+    /// The eye ray of a sample.
+    fn eye(&self, pixel: [u32; 2], sample: u32) -> PathRay {
+        let s = &self.settings;
+        let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
+        PathRay::eye(pass::eye_ray(&self.scene.view, s, pixel, &sampler), sampler)
+    }
+
+    /// The ray tree of one sample, made by running it again, watched; and the linear RGB that the film stores of it.
+    pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
+        let mut tree = RayTree::default();
+        let mut out = Contribution::default();
+        let cx = self.cx();
+        self.integrator.record(&cx, self.eye(pixel, sample), &mut out, &mut tree);
+        (tree, film_value(&cx, &out).unwrap_or([0.0; 3]))
+    }
+
+    /// Renders until done or until `cancel` is set.
+    pub fn render(&self, gather: Gather, progress: &dyn Progress, cancel: &AtomicBool) -> Rendered {
+        let view = &self.scene.view;
+        let window = self.settings.window(view.width, view.height);
+        let mut rendered = Rendered {
+            film: Film::new(view.width, view.height),
+            samples: 0,
+            rays: 0,
+            counters: (gather == Gather::Counters).then(Counters::default),
+            bad_samples: 0,
+            first_bad: None,
+            cancelled: false,
+        };
+        let tiles = window.squares(TILE);
+        for (first, last) in pass::passes(self.settings.samples) {
+            self.pass(&tiles, first..last, &mut rendered, progress, cancel);
+            if cancel.load(Ordering::Relaxed) {
+                rendered.cancelled = true;
+                break;
+            }
+            if last % BLOCK == 0 {
+                rendered.film.finish_block();
+            }
+        }
+        rendered
+    }
+
+    /// Takes the samples of a range everywhere. The tiles of a pass are disjoint: their order does not matter.
+    fn pass(
+        &self,
+        tiles: &[Tile],
+        samples: std::ops::Range<u32>,
+        rendered: &mut Rendered,
+        progress: &dyn Progress,
+        cancel: &AtomicBool,
+    ) {
+        let next = AtomicUsize::new(0);
+        let shared = Mutex::new(rendered);
+        let work = || {
+            let mut pixels = Vec::new();
+            loop {
+                let index = next.fetch_add(1, Ordering::Relaxed);
+                let Some(&tile) = tiles.get(index).filter(|_| !cancel.load(Ordering::Relaxed)) else { return };
+                let counting = {
+                    let shared = lock(&shared);
+                    shared.film.read(tile, &mut pixels);
+                    shared.counters.is_some()
+                };
+                let done = self.tile(tile, samples.clone(), counting, &mut pixels);
+                let mut shared = lock(&shared);
+                shared.film.write(tile, &pixels);
+                shared.take(&done);
+                drop(shared);
+                progress.advance(done.samples, done.rays);
+            }
+        };
+        let threads = self.settings.threads.clamp(1, tiles.len().max(1));
+        std::thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(work);
+            }
+            work();
+        });
+    }
+
+    fn tile(&self, tile: Tile, samples: std::ops::Range<u32>, counting: bool, pixels: &mut [Pixel]) -> TileDone {
+        let cx = self.cx();
+        let mut done = TileDone { counters: counting.then(Counters::default), ..TileDone::default() };
+        let mut out = Contribution::default();
+        let positions = (tile.y0..tile.y1).flat_map(|y| (tile.x0..tile.x1).map(move |x| [x, y]));
+        for (position, pixel) in positions.zip(pixels) {
+            for sample in samples.clone() {
+                let ray = self.eye(position, sample);
+                match &mut done.counters {
+                    Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
+                    None => self.integrator.sample(&cx, ray, &mut out),
+                }
+                done.samples += 1;
+                done.rays += out.rays;
+                match film_value(&cx, &out) {
+                    Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, 1.0),
+                    Some(_) => done.bad(BadSample { pixel: position, sample }),
+                    None => {}
+                }
+            }
+        }
+        done
+    }
+}
+
+/// What the film stores of a sample; `None` if it has no value, as data where nothing was hit.
+fn film_value(cx: &SampleCx<'_>, out: &Contribution) -> Option<[f32; 3]> {
+    match out.value {
+        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance)),
+        Value::Data(data) => data,
+    }
+}
+
+/// A worker that panicked has already ended the render: what it held is not looked at again.
+fn lock<'m, T>(mutex: &'m Mutex<T>) -> std::sync::MutexGuard<'m, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+#[derive(Default)]
+struct TileDone {
+    samples: u64,
+    rays: u64,
+    counters: Option<Counters>,
+    bad_samples: u64,
+    first_bad: Option<BadSample>,
+}
+
+impl TileDone {
+    fn bad(&mut self, sample: BadSample) {
+        self.bad_samples += 1;
+        self.first_bad = first(self.first_bad, Some(sample));
+    }
+}
+
+impl Rendered {
+    fn take(&mut self, done: &TileDone) {
+        self.samples += done.samples;
+        self.rays += done.rays;
+        self.bad_samples += done.bad_samples;
+        if let (Some(all), Some(counters)) = (&mut self.counters, &done.counters) {
+            all.merge(counters);
+        }
+        self.first_bad = first(self.first_bad, done.first_bad);
+    }
+}
+
+/// The one with the smaller (sample, row, column): the same whatever thread found it first.
+fn first(a: Option<BadSample>, b: Option<BadSample>) -> Option<BadSample> {
+    [a, b].into_iter().flatten().min_by_key(|b| (b.sample, b.pixel[1], b.pixel[0]))
+}

@@ -1,0 +1,136 @@
+//! Ray casting: one ray per sample, and what the lecture shows of the hit: depth, normal, local shading.
+use durer_accel::Hit;
+use durer_core::spectrum::Spectrum;
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Integrator, Output, Transport, shading::Shading};
+use crate::{
+    Contribution, PathRay, SampleCx, Value,
+    probe::{Probe, RayKind, StopReason},
+};
+
+/// What a ray cast shows of the nearest hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Show {
+    /// Depth along the camera's axis and along the ray, in metres.
+    Depth,
+    /// Shading normal in world space, turned towards the eye.
+    Normal,
+    /// Ambient term and the light of all lights, without shadows.
+    #[default]
+    Shading,
+    /// Colour of the material.
+    Albedo,
+    /// Surface coordinates.
+    Uv,
+    /// Number of the object.
+    Id,
+}
+
+impl Show {
+    /// All, in the order of their numbers.
+    pub const ALL: [Self; 6] = [Self::Depth, Self::Normal, Self::Shading, Self::Albedo, Self::Uv, Self::Id];
+    /// The words for them.
+    pub const WORDS: [&'static str; 6] = ["depth", "normal", "shading", "albedo", "uv", "id"];
+
+    /// From its word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::WORDS.iter().position(|w| *w == word).map(|i| Self::ALL[i])
+    }
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
+    }
+}
+
+/// Casts one ray and shows the nearest hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cast {
+    /// What of it.
+    pub show: Show,
+}
+
+impl Kind for Cast {
+    type Output = Box<dyn Integrator>;
+    const SCHEMA: Schema = Schema {
+        name: "cast",
+        aliases: &[],
+        doc: "Ray casting: the nearest hit's depth, normal, local shading, albedo, uv or object id.",
+        params: &[ParamSpec::new(
+            "show",
+            ParamType::Choice(&Show::WORDS),
+            ParamDefault::Text("shading"),
+            "What is shown of the nearest hit.",
+        )],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        Some(Box::new(Self { show: Show::from_word(args.text("show"))? }))
+    }
+}
+
+impl Transport for Cast {
+    fn output(&self) -> Output {
+        match self.show {
+            Show::Shading | Show::Albedo => Output::Radiance,
+            show => Output::Data(show),
+        }
+    }
+
+    fn sample<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: PathRay,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        let id = probe.ray(parent, &ray, RayKind::Eye);
+        out.rays = 1;
+        out.value = match cx.scene.closest(cx, &ray.ray, probe, id) {
+            Some(hit) => {
+                let s = Shading::at(cx, &ray.ray, &hit);
+                probe.surface(id, s.object, &hit, &s.surface);
+                probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+                self.hit(cx, &ray, &hit, &s)
+            }
+            None => {
+                probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
+                self.miss(cx, &ray)
+            }
+        };
+        if let Value::Radiance(radiance) = out.value {
+            probe.local(id, radiance);
+            probe.result(id, radiance);
+        }
+    }
+}
+
+impl Cast {
+    fn hit(&self, cx: &SampleCx<'_>, ray: &PathRay, hit: &Hit, s: &Shading) -> Value {
+        let data = |v: [f32; 3]| Value::Data(Some(v));
+        match self.show {
+            Show::Depth => data([hit.t * cx.scene.view.cos_to_axis(ray.ray.d), hit.t, 0.0]),
+            Show::Normal => data(s.surface.n_s.face_forward(s.wo).to_array()),
+            Show::Uv => data([s.surface.uv.x, s.surface.uv.y, 0.0]),
+            Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
+            Show::Albedo => Value::Radiance(s.bsdf.albedo()),
+            Show::Shading => {
+                let mut radiance = s.emission + s.ambient(cx);
+                for light in 0..cx.scene.lights.len() {
+                    if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {
+                        radiance += weight * sample.weight;
+                    }
+                }
+                Value::Radiance(radiance)
+            }
+        }
+    }
+
+    fn miss(&self, cx: &SampleCx<'_>, ray: &PathRay) -> Value {
+        match self.show {
+            Show::Shading => Value::Radiance(cx.scene.escaped(cx.basis, ray.ray.d)),
+            Show::Albedo => Value::Radiance(Spectrum::BLACK),
+            _ => Value::Data(None),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Light transport: from a ray to radiance.
+//!
+//! An author writes one generic [`Transport::sample`]; what the driver holds is the object-safe [`Integrator`], which
+//! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
+
+mod cast;
+mod shading;
+mod whitted;
+
+use durer_scene::Entry;
+
+use crate::{
+    Contribution, PathRay, SampleCx,
+    probe::{Counters, NoProbe, Probe, RayTree},
+};
+
+pub use cast::{Cast, Show};
+pub use whitted::Whitted;
+
+/// What the film holds once it is full.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// Light; antialiased by averaging.
+    Radiance,
+    /// Numbers for the eye: see [`Show`].
+    Data(Show),
+}
+
+/// Light transport as its author writes it, once for all probes.
+pub trait Transport: Send + Sync {
+    /// What the samples mean.
+    fn output(&self) -> Output {
+        Output::Radiance
+    }
+    /// Traces `ray` and all it spawns; leaves what arrives in `out`.
+    fn sample<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: PathRay,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    );
+}
+
+/// Light transport as the driver holds it; nobody implements it by hand.
+pub trait Integrator: Send + Sync {
+    /// What the samples mean.
+    fn output(&self) -> Output;
+    /// [`Transport::sample`], unwatched.
+    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
+    /// [`Transport::sample`], recorded.
+    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, tree: &mut RayTree);
+    /// [`Transport::sample`], counted.
+    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters);
+}
+
+impl<T: Transport> Integrator for T {
+    fn output(&self) -> Output {
+        Transport::output(self)
+    }
+    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
+        Transport::sample(self, cx, ray, (), &mut NoProbe, out);
+    }
+    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, tree: &mut RayTree) {
+        Transport::sample(self, cx, ray, Default::default(), tree, out);
+    }
+    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
+        Transport::sample(self, cx, ray, Default::default(), counters, out);
+    }
+}
+
+/// All integrators.
+pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[Entry::of::<Whitted>(), Entry::of::<Cast>()];
+
+/// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
+pub const NOT_YET: &[&str] = &[
+    "ambientocclusion",
+    "bdpt",
+    "function",
+    "lightpath",
+    "mlt",
+    "path",
+    "randomwalk",
+    "simplepath",
+    "simplevolpath",
+    "sppm",
+    "volpath",
+];

@@ -1,0 +1,82 @@
+//! What travels through light transport: the context of a sample, its rays and what it yields.
+use durer_core::{
+    math::Ray,
+    sampling::Sampler,
+    spectrum::{Basis, Spectrum},
+};
+use durer_model::ShadeCx;
+
+use crate::Scene;
+
+/// What every function of light transport needs; the first argument everywhere.
+#[derive(Clone, Copy)]
+pub struct SampleCx<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Meaning of the spectral lanes of this sample.
+    pub basis: Basis,
+}
+
+impl<'a> SampleCx<'a> {
+    /// The part that materials need.
+    pub fn shade(&self) -> ShadeCx<'a> {
+        ShadeCx { basis: self.basis, textures: &self.scene.textures }
+    }
+}
+
+/// A ray with its place in the ray tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathRay {
+    /// The ray, in render space, with a direction of unit length unless it is a shadow ray.
+    pub ray: Ray,
+    /// What the parent multiplies this ray's radiance with.
+    pub weight: Spectrum,
+    /// Product of the weights from the eye to here: this ray's share in the pixel.
+    pub throughput: Spectrum,
+    /// Number of bounces before this ray; 0 for eye rays.
+    pub depth: u32,
+    /// The random numbers of this place in the tree.
+    pub sampler: Sampler,
+}
+
+impl PathRay {
+    /// The eye ray of a sample.
+    pub fn eye(ray: Ray, sampler: Sampler) -> Self {
+        Self { ray, weight: Spectrum::ONE, throughput: Spectrum::ONE, depth: 0, sampler }
+    }
+    /// The `branch`-th ray spawned where this one ended.
+    #[must_use]
+    pub fn child(&self, ray: Ray, weight: Spectrum, branch: u32) -> Self {
+        Self {
+            ray,
+            weight,
+            throughput: self.throughput * weight,
+            depth: self.depth + 1,
+            sampler: self.sampler.fork(branch),
+        }
+    }
+}
+
+/// What the film stores of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Light, in the lanes of the sample's basis.
+    Radiance(Spectrum),
+    /// Up to three numbers that are no light: depth, normal, uv, id. `None` where nothing was hit.
+    Data(Option<[f32; 3]>),
+}
+
+/// What one sample yields; one reusable buffer per worker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// The value.
+    pub value: Value,
+    /// Rays traced for it, shadow rays included.
+    pub rays: u64,
+}
+
+impl Default for Contribution {
+    fn default() -> Self {
+        Self { value: Value::Data(None), rays: 0 }
+    }
+}

@@ -1,0 +1,227 @@
+//! The compiled scene: frozen, without lifetimes, ready to be asked for hits by any number of threads.
+use std::sync::Arc;
+
+use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
+use durer_core::{
+    Id,
+    math::{Point2, Point3, Ray, Transform, Vector3},
+    spectrum::{Basis, Spectrum},
+};
+use durer_model::{
+    Surface,
+    camera::Camera,
+    light::Light,
+    material::Material,
+    shape::{Shape, ShapeHit, mesh_surface},
+    texture::Texture,
+};
+use durer_scene::Mesh;
+
+use crate::{
+    SampleCx,
+    probe::{NoProbe, Probe},
+};
+
+/// A thing with a name and a material: what a hit belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Object {
+    /// As the file calls it, else kind and number.
+    pub name: String,
+    /// Its material.
+    pub material: u32,
+    /// Turns the normals.
+    pub reverse_orientation: bool,
+}
+
+/// What the instances of the kernel stand for.
+#[derive(Clone, Debug)]
+pub(crate) enum Target {
+    /// All still meshes that are used once, in render space; see [`Scene::merged`].
+    Merged,
+    /// All still shapes; the primitive is the index in [`Scene::shapes`].
+    Shapes,
+    /// One moving shape: an index in [`Scene::movers`].
+    Mover(u32),
+    /// A mesh that is used several times, or moves.
+    Mesh(Id<Object>, Arc<Mesh>),
+}
+
+/// A mesh of the merged tree, in render space.
+#[derive(Debug)]
+pub(crate) struct MergedMesh {
+    pub(crate) first_triangle: u32,
+    pub(crate) object: Id<Object>,
+    pub(crate) mesh: Mesh,
+}
+
+/// A shape that is no mesh.
+#[derive(Debug)]
+pub(crate) struct PlacedShape {
+    pub(crate) shape: Box<dyn Shape>,
+    pub(crate) object: Id<Object>,
+    /// Identity for moving shapes: the kernel places them.
+    pub(crate) render_from_object: Transform,
+    pub(crate) object_from_render: Transform,
+}
+
+/// The camera in its place, and the picture it takes.
+#[derive(Debug)]
+pub struct View {
+    /// The camera.
+    pub camera: Box<dyn Camera>,
+    /// Its placement.
+    pub render_from_camera: Transform,
+    /// Render space is the world moved by this vector, so that the camera is at its origin (f64: the move is exact).
+    pub world_from_render: durer_core::glam::DVec3,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl View {
+    /// The ray through a point of the picture, in pixels from the upper left corner, in render space and of unit length.
+    pub fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
+        let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
+        let ray = self.render_from_camera.ray(&self.camera.ray(film, lens, time));
+        Ray { d: ray.d.normalize(), ..ray }
+    }
+    /// Cosine between unit direction `d` and the camera's axis: depth along the axis per ray length.
+    pub fn cos_to_axis(&self, d: Vector3) -> f32 {
+        self.render_from_camera.vector(Vector3::new(0.0, 0.0, 1.0)).normalize().dot(d)
+    }
+    /// A point of render space in world space.
+    pub fn to_world(&self, p: Point3) -> [f64; 3] {
+        (p.to_f64() + self.world_from_render).to_array()
+    }
+}
+
+/// A compiled scene.
+#[derive(Debug)]
+pub struct Scene {
+    /// What hits belong to.
+    pub objects: Vec<Object>,
+    /// Materials, as [`Object::material`] numbers them.
+    pub materials: Vec<Box<dyn Material>>,
+    /// Textures, in the order of the description.
+    pub textures: Vec<Box<dyn Texture>>,
+    /// Lights.
+    pub lights: Vec<Box<dyn Light>>,
+    /// Names of the lights.
+    pub light_names: Vec<String>,
+    /// The camera.
+    pub view: View,
+    /// The ray-intersection kernel.
+    pub accel: Accel,
+    pub(crate) targets: Vec<Target>,
+    pub(crate) merged: Vec<MergedMesh>,
+    pub(crate) shapes: Vec<PlacedShape>,
+    pub(crate) movers: Vec<PlacedShape>,
+    /// True if some material has holes, so that hits must be asked about them.
+    pub(crate) has_holes: bool,
+}
+
+impl UserGeometry for Scene {
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
+        let placed = match self.targets[instance as usize] {
+            Target::Mover(index) => &self.movers[index as usize],
+            _ => &self.shapes[prim as usize],
+        };
+        let hit = placed.shape.intersect(&placed.object_from_render.ray(ray))?;
+        Some(PrimitiveHit { t: hit.t, u: hit.u, v: hit.v })
+    }
+}
+
+impl Scene {
+    /// The nearest hit that is no hole.
+    pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
+        let mut ray = *ray;
+        loop {
+            let hit = self.accel.closest(&ray, self, probe, id)?;
+            if !self.has_holes || !self.is_hole(cx, &ray, &hit) {
+                return Some(hit);
+            }
+            ray.t_min = hit.t.next_up();
+        }
+    }
+
+    /// True if anything that is no hole lies on the ray.
+    pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
+        if self.has_holes {
+            self.closest(cx, ray, probe, id).is_some()
+        } else {
+            self.accel.any(ray, self, probe, id)
+        }
+    }
+
+    /// The nearest object on the ray; unwatched.
+    pub fn blocker(&self, cx: &SampleCx<'_>, ray: &Ray) -> Option<Id<Object>> {
+        self.closest(cx, ray, &mut NoProbe, ()).map(|hit| self.resolve(&hit).0)
+    }
+
+    fn is_hole(&self, cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> bool {
+        let material = self.material(self.resolve(hit).0);
+        material.has_holes() && material.is_hole(&cx.shade(), &self.surface(ray, hit).1.texture_at())
+    }
+
+    /// The object of a hit, and the hit triangle's number within its mesh.
+    fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
+        match &self.targets[hit.instance as usize] {
+            Target::Merged => {
+                let merged = self.merged_at(hit.prim);
+                (merged.object, hit.prim - merged.first_triangle)
+            }
+            Target::Shapes => (self.shapes[hit.prim as usize].object, 0),
+            Target::Mover(index) => (self.movers[*index as usize].object, 0),
+            Target::Mesh(object, _) => (*object, hit.prim),
+        }
+    }
+
+    fn merged_at(&self, prim: u32) -> &MergedMesh {
+        &self.merged[self.merged.partition_point(|m| m.first_triangle <= prim) - 1]
+    }
+
+    /// The place of a hit that this ray found, in render space.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Id<Object>, Surface) {
+        let shape_surface = |placed: &PlacedShape, ray: &Ray, to_render: &Transform| {
+            let local = placed.object_from_render.ray(ray);
+            let local_hit = ShapeHit { t: hit.t, u: hit.u, v: hit.v };
+            let reverse = self.object(placed.object).reverse_orientation;
+            (placed.object, placed.shape.surface(&local, &local_hit).placed(to_render, reverse))
+        };
+        match &self.targets[hit.instance as usize] {
+            Target::Merged => {
+                let merged = self.merged_at(hit.prim);
+                let surface = mesh_surface(&merged.mesh, hit.prim - merged.first_triangle, hit.u, hit.v);
+                let reverse = self.object(merged.object).reverse_orientation;
+                (merged.object, if reverse { surface.reversed() } else { surface })
+            }
+            Target::Mesh(object, mesh) => {
+                let to_render = self.accel.instance_transform(hit.instance, ray.time);
+                let surface = mesh_surface(mesh, hit.prim, hit.u, hit.v);
+                (*object, surface.placed(&to_render, self.object(*object).reverse_orientation))
+            }
+            Target::Shapes => {
+                let placed = &self.shapes[hit.prim as usize];
+                shape_surface(placed, ray, &placed.render_from_object)
+            }
+            Target::Mover(index) => {
+                let to_render = self.accel.instance_transform(hit.instance, ray.time);
+                shape_surface(&self.movers[*index as usize], &to_render.inverse().ray(ray), &to_render)
+            }
+        }
+    }
+
+    /// An object.
+    pub fn object(&self, id: Id<Object>) -> &Object {
+        &self.objects[id.index()]
+    }
+    /// The material of an object.
+    pub fn material(&self, object: Id<Object>) -> &dyn Material {
+        &*self.materials[self.object(object).material as usize]
+    }
+    /// Radiance along a ray that left the scene.
+    pub fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
+        self.lights.iter().fold(Spectrum::BLACK, |sum, light| sum + light.escaped(basis, d))
+    }
+}
