@@ -84,7 +84,7 @@ fn whitted_example_comes_out() {
     assert!((reflect(v, n) - Vector3::new(s, s, 0.0)).length() < 1e-6);
     let t = refract(-v, n, 1.0 / 1.5).expect("enters");
     assert!((t / -t.y - Vector3::new(0.534522, -1.0, 0.0)).length() < 1e-6);
-    let inside = Vector3::new(60f32.to_radians().sin(), 0.5, 0.0);
+    let inside = Vector3::new(at_degrees(60.0).x, 0.5, 0.0);
     assert_eq!(refract(inside, n, 1.5), None);
 }
 

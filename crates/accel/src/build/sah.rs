@@ -10,7 +10,7 @@ use crate::tree::{DEPTH_MAX, Node, Pair, Tree};
 
 /// Below this depth halves are taken by rank: 2^31 items need 31 more levels.
 const DEPTH_SAH: u32 = DEPTH_MAX as u32 - 32;
-const BINS_MAX: usize = 64;
+const BINS_MAX: usize = 32;
 
 /// An item to be sorted into the tree.
 #[derive(Clone, Copy)]
@@ -107,8 +107,32 @@ fn fill(tree: &mut Tree, items: &mut [Item], options: &BuildOptions) {
     }
 }
 
+/// `Bounds3::union` for boxes without NaN: one instruction per coordinate.
+#[inline(always)]
+fn joined(a: Bounds3, b: Bounds3) -> Bounds3 {
+    let lesser = |a: f32, b: f32| if a < b { a } else { b };
+    let greater = |a: f32, b: f32| if a > b { a } else { b };
+    let (min, max) = (a.min, a.max);
+    Bounds3 {
+        min: Point3::new(
+            lesser(min.x, b.min.x),
+            lesser(min.y, b.min.y),
+            lesser(min.z, b.min.z),
+        ),
+        max: Point3::new(
+            greater(max.x, b.max.x),
+            greater(max.y, b.max.y),
+            greater(max.z, b.max.z),
+        ),
+    }
+}
+
+fn around(boxes: impl Iterator<Item = Bounds3>) -> Bounds3 {
+    boxes.fold(Bounds3::EMPTY, joined)
+}
+
 fn leaf(items: &[Item], first: usize) -> Node {
-    let bounds = items.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.bounds));
+    let bounds = around(items.iter().map(|i| i.bounds));
     Node::new(&bounds, first as u32, items.len() as u32)
 }
 
@@ -121,8 +145,7 @@ fn divide(items: &mut [Item], depth: u32, options: &BuildOptions) -> Option<usiz
     if depth >= DEPTH_SAH {
         return must.then(|| halve(items));
     }
-    let centers = Bounds3::around(items.iter().map(|i| i.center));
-    let bins = Bins::new(&centers, options);
+    let bins = Bins::new(items, options);
     match bins.best(items) {
         Some(split) if must || split.cost < items.len() as f32 => {
             Some(partition(items, |i| bins.of(i.center, split.axis) < split.bin))
@@ -166,8 +189,13 @@ struct Bins {
 }
 
 impl Bins {
-    fn new(centers: &Bounds3, options: &BuildOptions) -> Self {
-        let count = (options.bins as usize).clamp(2, BINS_MAX);
+    fn new(items: &[Item], options: &BuildOptions) -> Self {
+        // More bins than twice the items find no better plane.
+        let count = (options.bins as usize).min(2 * items.len()).clamp(2, BINS_MAX);
+        let centers = around(items.iter().map(|i| Bounds3 {
+            min: i.center,
+            max: i.center,
+        }));
         let scale = centers.diagonal().to_array().map(|extent| {
             let scale = count as f32 / extent;
             if scale.is_finite() { scale } else { 0.0 }
@@ -185,10 +213,7 @@ impl Bins {
 
     /// The cheapest plane, if any leaves items on both sides.
     fn best(&self, items: &[Item]) -> Option<Split> {
-        let whole = items
-            .iter()
-            .fold(Bounds3::EMPTY, |all, i| all.union(i.bounds))
-            .half_area();
+        let whole = around(items.iter().map(|i| i.bounds)).half_area();
         (0..3)
             .filter(|&axis| self.scale[axis] > 0.0)
             .filter_map(|axis| self.best_on(axis, items))
@@ -205,7 +230,7 @@ impl Bins {
         let mut bins = [(Bounds3::EMPTY, 0u32); BINS_MAX];
         for item in items {
             let (bounds, count) = &mut bins[self.of(item.center, axis)];
-            *bounds = bounds.union(item.bounds);
+            *bounds = joined(*bounds, item.bounds);
             *count += 1;
         }
         // right[i]: everything from bin i on.

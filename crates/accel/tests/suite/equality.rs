@@ -296,20 +296,25 @@ fn shapes_that_stick_out_of_their_boxes_are_hit_alike() {
 }
 
 #[test]
-fn instances_far_from_the_origin_are_hit_alike() {
+fn instances_far_away_or_squashed_are_hit_alike() {
     // Taking a ray to object space loses more here than boxes are padded by.
     let mut random = Random(32);
-    for _ in 0..20 {
+    for scene in 0..20 {
+        let squash = if scene % 2 == 0 { 1.0 } else { 1e-4 };
         let meshes: Vec<_> = (0..3).map(|_| mesh(&mut random)).collect();
-        let far = DVec3::new(3e5, -1e5, 2e5);
+        let far = if scene % 2 == 0 {
+            DVec3::new(3e5, -1e5, 2e5)
+        } else {
+            DVec3::new(3.0, 4.0, -5.0)
+        };
         let placements: Vec<_> = (0..8)
             .map(|_| {
                 let turn = DQuat::from_axis_angle(random.direction().to_f64().normalize(), 1.0);
                 let near = random.point(1.0).to_f64();
-                Placement::Still(Transform::from_f64(&DAffine3::from_rotation_translation(
-                    turn,
-                    far + near,
-                )))
+                let turned = DAffine3::from_scale(DVec3::new(1.0, squash, 1.0)) * DAffine3::from_quat(turn);
+                Placement::Still(Transform::from_f64(
+                    &(DAffine3::from_translation(far + near * squash) * turned),
+                ))
             })
             .collect();
         let build = |engine| {
@@ -332,8 +337,9 @@ fn instances_far_from_the_origin_are_hit_alike() {
         let (tree, brute) = (build(Engine::Bvh), build(Engine::BruteForce));
         let center = Point3::from_f64(far);
         for _ in 0..1000 {
-            let o = center + (random.point(3.0) - Point3::ZERO);
-            let mut ray = Ray::new(o, random.direction());
+            let (mut from, mut d) = (random.point(3.0) - Point3::ZERO, random.direction());
+            (from.y, d.y) = (from.y * squash as f32, d.y * squash as f32);
+            let mut ray = Ray::new(center + from, d);
             ray.t_max = if random.below(2) == 0 {
                 f32::INFINITY
             } else {

@@ -136,6 +136,21 @@ fn rays_that_start_on_a_triangle_do_not_meet_it_at_zero() {
 }
 
 #[test]
+fn rays_that_start_on_an_edge_or_vertex_do_not_meet_it_at_zero() {
+    let mut random = Random(9);
+    for _ in 0..50_000 {
+        // Coordinates with few bits: the origin lies on the edge exactly, and often sees edge functions of 0.
+        let t = triangle(&mut random).map(|p| {
+            let round = |x: f32| (x * 64.0).round() / 64.0;
+            Point3::new(round(p.x), round(p.y), round(p.z))
+        });
+        let o = t[0] + (t[1] - t[0]) * (random.below(9) as f32 / 8.0);
+        let shear = Shear::new(&Ray::new(o, random.direction())).expect("valid direction");
+        assert_eq!(intersect(&shear, &t, 0.0, f32::INFINITY), None, "{t:?} {o:?}");
+    }
+}
+
+#[test]
 fn offset_origins_on_tilted_triangles_never_hit_them_again() {
     let mut random = Random(6);
     for scale in [1e-4, 1.0, 1e6] {

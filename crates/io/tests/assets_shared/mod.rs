@@ -11,7 +11,10 @@ pub(crate) fn folder(name: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    eprintln!("SKIPPED: {} is not there; set DURER_SHARED to run this test", folder.display());
+    eprintln!(
+        "SKIPPED: {} is not there; set DURER_SHARED to run this test",
+        folder.display()
+    );
     None
 }
 
@@ -20,7 +23,11 @@ pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("readable folder") {
         let path = entry.expect("readable entry").path();
-        if path.is_dir() { found.extend(files(&path)) } else { found.push(path) }
+        if path.is_dir() {
+            found.extend(files(&path))
+        } else {
+            found.push(path)
+        }
     }
     found.sort();
     found

@@ -3,10 +3,18 @@
 //! Camera space has x to the right, y up and looks along +z (pbrt's left-handed camera space). A camera knows no film.
 //! A new camera is one file here and one line in [`CAMERAS`].
 
+mod orthographic;
+mod perspective;
+mod screen;
+mod shutter;
+
 use std::fmt::Debug;
 
 use durer_core::math::{Point2, Ray};
 use durer_scene::Entry;
+
+pub use orthographic::Orthographic;
+pub use perspective::Perspective;
 
 /// A camera.
 pub trait Camera: Debug + Send + Sync {
@@ -18,4 +26,4 @@ pub trait Camera: Debug + Send + Sync {
 }
 
 /// All kinds of camera.
-pub const CAMERAS: &[Entry<Box<dyn Camera>>] = &[];
+pub const CAMERAS: &[Entry<Box<dyn Camera>>] = &[Entry::of::<Orthographic>(), Entry::of::<Perspective>()];

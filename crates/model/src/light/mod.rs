@@ -2,13 +2,27 @@
 //!
 //! A new light is one file here and one line in [`LIGHTS`].
 
+mod ambient;
+mod distant;
+mod falloff;
+mod gradient_sky;
+mod infinite;
+mod point;
+mod sky_blur;
+mod spot;
+
 use std::fmt::Debug;
 
 use durer_core::{
     math::{Normal3, Point2, Point3, Transform, Vector3},
-    spectrum::{Basis, Spectrum},
+    spectrum::{Basis, Color, Spectrum},
 };
-use durer_scene::Entry;
+use durer_scene::{Args, Entry};
+
+pub use self::{
+    ambient::Ambient, distant::Distant, gradient_sky::GradientSky, infinite::Infinite, point::Point,
+    spot::Spot,
+};
 
 /// Light arriving at a point from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,4 +62,44 @@ pub trait Light: Debug + Send + Sync {
 }
 
 /// All kinds of light.
-pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[];
+pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
+    Entry::of::<Point>(),
+    Entry::of::<Distant>(),
+    Entry::of::<Spot>(),
+    Entry::of::<Infinite>(),
+    Entry::of::<GradientSky>(),
+    Entry::of::<Ambient>(),
+];
+
+/// Words of pbrt-v4 that are known but not built yet; `diffuse` is its area light.
+pub const NOT_YET: &[&str] = &["diffuse", "goniometric", "projection"];
+
+/// The colour parameter `name` times `scale`. If `total` is given, it is the luminance that the quantity reached by the
+/// factor `reach` shall have before `scale` (pbrt-v4's `power` and `illuminance`): it replaces the colour's magnitude.
+fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
+    let (color, scale) = (args.color(name), args.float("scale"));
+    match args.optional_float(total) {
+        Some(_) if color.luminance() <= 0.0 => {
+            args.error(
+                name,
+                format!("a light of \"{total}\" needs a colour \"{name}\" that is not black"),
+            );
+            Color::BLACK
+        }
+        Some(total) => color * (scale * total / (reach * color.luminance())),
+        None => color * scale,
+    }
+}
+
+/// The unit vector from `from` to `to`; complains if they are equal.
+fn axis(args: &mut Args<'_>, from: Point3, to: Point3) -> Option<Vector3> {
+    let d = to - from;
+    if d.length_squared() == 0.0 {
+        args.error(
+            "to",
+            "\"from\" and \"to\" are the same point: the light has no direction",
+        );
+        return None;
+    }
+    Some(d.normalize())
+}

@@ -7,7 +7,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, share};
+use super::{Material, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Highlight, Interface, Lobe, Split},
@@ -40,27 +40,38 @@ impl Kind for Classic {
                 ParamDefault::Unset,
                 "Coefficient of the ambient term; the diffuse coefficient if left out.",
             )
-            .range(0.0, 1.0),
-            ParamSpec::color_texture("diffuse", [0.5; 3], "Coefficient of the diffuse term.").range(0.0, 1.0),
-            ParamSpec::color_texture("specular", BLACK, "Coefficient of the lights' highlights.").range(0.0, 1.0),
-            ParamSpec::float("exponent", 32.0, "Exponent of the highlights: larger is smaller and sharper.")
-                .range(0.0, 1e6),
-            ParamSpec::color_texture("reflection", BLACK, "Weight of the mirrored ray; none is traced if 0.")
-                .range(0.0, 1.0),
+            .range(0.0, f32::INFINITY),
+            ParamSpec::color_texture("diffuse", [0.5; 3], "Coefficient of the diffuse term.")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::color_texture("specular", BLACK, "Coefficient of the lights' highlights.")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::float(
+                "exponent",
+                32.0,
+                "Exponent of the highlights: larger is smaller and sharper.",
+            )
+            .range(0.0, 1e6),
+            ParamSpec::color_texture(
+                "reflection",
+                BLACK,
+                "Weight of the mirrored ray; none is traced if 0.",
+            )
+            .range(0.0, f32::INFINITY),
             ParamSpec::color_texture("transmission", BLACK, "Weight of the refracted ray; opaque if 0.")
-                .range(0.0, 1.0),
-            ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.").range(0.1, 10.0),
+                .range(0.0, f32::INFINITY),
+            ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
+                .range(0.1, 10.0),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let ambient = args.is_set("ambient").then(|| args.color_input("ambient"));
+        let ambient = args.is_set("ambient").then(|| share_input(args, "ambient"));
         Some(Box::new(Self {
             ambient,
-            diffuse: args.color_input("diffuse"),
-            specular: args.color_input("specular"),
+            diffuse: share_input(args, "diffuse"),
+            specular: share_input(args, "specular"),
             exponent: args.float("exponent"),
-            reflection: args.color_input("reflection"),
-            transmission: args.color_input("transmission"),
+            reflection: share_input(args, "reflection"),
+            transmission: share_input(args, "transmission"),
             eta: args.float("eta"),
         }))
     }
@@ -69,18 +80,28 @@ impl Kind for Classic {
 impl Material for Classic {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
-        let mut bsdf = Bsdf::default().with(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
+        let mut bsdf = Bsdf::default().with(Lobe::Diffuse {
+            albedo: share(cx, self.diffuse, &at),
+        });
         if let Some(ambient) = self.ambient {
-            bsdf = bsdf.with(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
+            bsdf = bsdf.with(Lobe::Ambient {
+                coefficient: share(cx, ambient, &at),
+            });
         }
         let specular = share(cx, self.specular, &at);
         if !specular.is_black() {
-            bsdf = bsdf.with(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
+            bsdf = bsdf.with(Lobe::Highlight(Highlight {
+                specular,
+                exponent: self.exponent,
+            }));
         }
         let reflection = share(cx, self.reflection, &at);
         let transmission = share(cx, self.transmission, &at);
         if !transmission.is_black() {
-            let split = Split::Constant { reflection, transmission };
+            let split = Split::Constant {
+                reflection,
+                transmission,
+            };
             bsdf.with(Lobe::Interface(Interface { eta: self.eta, split }))
         } else if !reflection.is_black() {
             bsdf.with(Lobe::Mirror { weight: reflection })

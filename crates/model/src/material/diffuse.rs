@@ -2,7 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, share, warn_unsupported};
+use super::{Material, share, share_input, warn_unsupported};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Lobe},
@@ -21,14 +21,27 @@ impl Kind for Diffuse {
         aliases: &["matte"],
         doc: "Matte: reflects light equally in all directions.",
         params: &[
-            ParamSpec::color_texture("reflectance", [0.5; 3], "Share of light reflected.").range(0.0, 1.0),
-            ParamSpec::new("displacement", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
-            ParamSpec::new("normalmap", ParamType::Text, ParamDefault::Unset, "Not supported yet."),
+            ParamSpec::color_texture("reflectance", [0.5; 3], "Share of light reflected.")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "displacement",
+                ParamType::FloatTexture,
+                ParamDefault::Unset,
+                "Not supported yet.",
+            ),
+            ParamSpec::new(
+                "normalmap",
+                ParamType::Text,
+                ParamDefault::Unset,
+                "Not supported yet.",
+            ),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         warn_unsupported(args, &["displacement", "normalmap"]);
-        Some(Box::new(Self { reflectance: args.color_input("reflectance") }))
+        Some(Box::new(Self {
+            reflectance: share_input(args, "reflectance"),
+        }))
     }
 }
 

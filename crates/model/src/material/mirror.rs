@@ -2,7 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamSpec, Schema};
 
-use super::{Material, share};
+use super::{Material, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Lobe},
@@ -21,11 +21,14 @@ impl Kind for Mirror {
         aliases: &[],
         doc: "Perfect mirror: reflects the same share of light under all angles.",
         params: &[
-            ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.").range(0.0, 1.0),
+            ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.")
+                .range(0.0, f32::INFINITY),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self { reflectance: args.color_input("reflectance") }))
+        Some(Box::new(Self {
+            reflectance: share_input(args, "reflectance"),
+        }))
     }
 }
 

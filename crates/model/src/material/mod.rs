@@ -5,6 +5,7 @@
 mod classic;
 mod dielectric;
 mod diffuse;
+mod interface;
 mod mirror;
 mod normal_map;
 mod principled;
@@ -15,7 +16,8 @@ use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, ColorInput, Entry};
 
 pub use self::{
-    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, mirror::Mirror, principled::Principled,
+    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, interface::Interface, mirror::Mirror,
+    principled::Principled,
 };
 use crate::{ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
@@ -47,6 +49,7 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Dielectric>(),
     Entry::of::<Classic>(),
     Entry::of::<Principled>(),
+    Entry::of::<Interface>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
@@ -60,12 +63,27 @@ pub const NOT_YET: &[(&str, &str)] = &[
     ("measured", "diffuse"),
     ("mix", "diffuse"),
     ("subsurface", "diffuse"),
-    ("interface", "diffuse"),
 ];
+
+/// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
+/// because it would be applied to the wavelengths of a spectrum.)
+fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
+    let input = args.color_input(name);
+    if let ColorInput::Constant(color) = input
+        && color.rgb.iter().any(|&v| v > 1.0)
+    {
+        args.warning(
+            name,
+            format!("\"{name}\" is more than 1, which reflects or passes more than arrives; 1 is used"),
+        );
+    }
+    input
+}
 
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
 fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
-    cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
+    cx.basis
+        .reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
 }
 
 /// Warns about each of the parameters `names` that the file gives.

@@ -13,7 +13,7 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, normal_map, share};
+use super::{Material, normal_map, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Glossy, Lobe, normal_reflectance},
@@ -53,8 +53,12 @@ impl Kind for Principled {
         aliases: &[],
         doc: "The metallic-roughness material of glTF 2.0.",
         params: &[
-            ParamSpec::color_texture("basecolor", [1.0; 3], "Colour of the body, or of a metal's reflection.")
-                .range(0.0, 1.0),
+            ParamSpec::color_texture(
+                "basecolor",
+                [1.0; 3],
+                "Colour of the body, or of a metal's reflection.",
+            )
+            .range(0.0, f32::INFINITY),
             ParamSpec::float_texture("alpha", 1.0, "Coverage; see alphamode.").range(0.0, 1.0),
             ParamSpec::new(
                 "alphamode",
@@ -62,12 +66,22 @@ impl Kind for Principled {
                 ParamDefault::Text("opaque"),
                 "Whether alpha is ignored, cuts holes, or blends with what lies behind.",
             ),
-            ParamSpec::float("alphacutoff", 0.5, "With mask: holes are where alpha is below this.").range(0.0, 1e6),
+            ParamSpec::float(
+                "alphacutoff",
+                0.5,
+                "With mask: holes are where alpha is below this.",
+            )
+            .range(0.0, 1e6),
             ParamSpec::float_texture("metallic", 0.0, "0 dielectric, 1 metal.").range(0.0, 1.0),
-            ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.").range(0.0, 1.0),
-            ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
-            ParamSpec::float_texture("transmission", 0.0, "Share of the body that is a thin clear sheet.")
+            ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.")
                 .range(0.0, 1.0),
+            ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
+            ParamSpec::float_texture(
+                "transmission",
+                0.0,
+                "Share of the body that is a thin clear sheet.",
+            )
+            .range(0.0, 1.0),
             ParamSpec::color_texture("emission", [0.0; 3], "Radiance emitted.").range(0.0, f32::INFINITY),
             ParamSpec::float("emissionstrength", 1.0, "Factor on emission.").range(0.0, f32::INFINITY),
             ParamSpec::new(
@@ -87,7 +101,7 @@ impl Kind for Principled {
         };
         let normal = args.is_set("normal").then(|| args.color_input("normal"));
         Some(Box::new(Self {
-            base: args.color_input("basecolor"),
+            base: share_input(args, "basecolor"),
             alpha: args.float_input("alpha"),
             mode,
             metallic: args.float_input("metallic"),
@@ -131,15 +145,23 @@ impl Material for Principled {
         let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
 
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
-        let dielectric = Glossy { f0: dielectric_f0, alpha: sqr(unit(self.roughness)), scale: coverage };
+        let dielectric = Glossy {
+            f0: dielectric_f0,
+            alpha: sqr(unit(self.roughness)),
+            scale: coverage,
+        };
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
-        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
+        let below = dielectric
+            .directional_albedo(local_wo)
+            .map(|e| (1.0 - e).max(0.0));
         let body = base * below * ((1.0 - metallic) * coverage);
 
         let f0 = dielectric_f0 * (1.0 - metallic) + base * metallic;
         let passing = body * transmission + Spectrum::splat(1.0 - coverage);
         Bsdf::default()
-            .with(Lobe::Diffuse { albedo: body * (1.0 - transmission) })
+            .with(Lobe::Diffuse {
+                albedo: body * (1.0 - transmission),
+            })
             .with(Lobe::Glossy(Glossy { f0, ..dielectric }))
             .with(Lobe::PassThrough { weight: passing })
     }

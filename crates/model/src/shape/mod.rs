@@ -62,9 +62,21 @@ pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<TriangleMesh>(),
 ];
 
+/// `t` rounded, if it lies in the ray's interval and beyond its lower end by more than `error`, the bound on what is
+/// wrong with it, and by more than rounding it changes it.
+fn accept(ray: &Ray, t: f64, error: f64) -> Option<f32> {
+    let rounded = t as f32;
+    let beyond = t - f64::from(ray.t_min) > error && rounded > ray.t_min;
+    (beyond && rounded <= ray.t_max && rounded.is_finite()).then_some(rounded)
+}
+
 /// An angle in degrees, at most a full turn, in radians; 360 gives exactly [`TAU`].
 fn arc_angle(degrees: f32) -> f32 {
-    if degrees >= 360.0 { TAU } else { degrees.to_radians() }
+    if degrees >= 360.0 {
+        TAU
+    } else {
+        degrees.to_radians()
+    }
 }
 
 /// Angle of `(x, y)` from the x axis towards y in `[0, TAU]`.

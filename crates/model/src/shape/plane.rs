@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Geometry, Shape, ShapeHit};
+use super::{Geometry, Shape, ShapeHit, accept};
 use crate::Surface;
 
 /// A plane through a point with axes for texture coordinates, in f64: what all flat shapes lie in.
@@ -41,7 +41,12 @@ impl Carrier {
         };
         let u = (first - n * n.dot(first)).normalize();
         let v = n.cross(u).normalize();
-        Self { origin, n, u, v: if v.dot(second) < 0.0 { -v } else { v } }
+        Self {
+            origin,
+            n,
+            u,
+            v: if v.dot(second) < 0.0 { -v } else { v },
+        }
     }
     /// The lecture's `H(P)`: distance, positive on the side of the normal.
     pub(super) fn height(&self, p: DVec3) -> f64 {
@@ -65,10 +70,9 @@ impl Carrier {
     /// [`Self::meet`] as far as the ray's interval allows, with the point, which is finite in f32.
     pub(super) fn hit(&self, ray: &Ray) -> Option<(f32, DVec3)> {
         let (t, error) = self.meet(ray)?;
-        let rounded = t as f32;
-        let valid = t - f64::from(ray.t_min) > error && rounded.is_finite() && ray.contains(rounded);
+        let rounded = accept(ray, t, error)?;
         let p = self.point(ray, t);
-        (valid && Point3::from_f64(p).is_finite()).then_some((rounded, p))
+        Point3::from_f64(p).is_finite().then_some((rounded, p))
     }
     /// The point at which the ray meets the plane, or that at `t` if it is parallel; put back on the plane.
     pub(super) fn point_near(&self, ray: &Ray, t: f32) -> DVec3 {
@@ -86,7 +90,8 @@ impl Carrier {
             p,
             // One rounding to f32; the second covers those of f64, also of the plane's own origin.
             p_error: (p - Point3::ZERO).abs() * gamma(2)
-                + Vector3::from_f64(self.origin.abs() + exact.abs().max_element()) * (f64::EPSILON * 8.0) as f32,
+                + Vector3::from_f64(self.origin.abs() + exact.abs().max_element())
+                    * (f64::EPSILON * 8.0) as f32,
             n_g: n,
             n_s: n,
             uv,
@@ -108,7 +113,10 @@ impl Plane {
     /// The plane through `point`; `normal` need not be of unit length, but not zero. Texture coordinates count from
     /// `point`, `uv_scale` to the metre: for normal +y `u = x` and `v = z` times the scale.
     pub fn new(point: Point3, normal: Vector3, uv_scale: f32) -> Self {
-        Self { carrier: Carrier::new(point.to_f64(), normal.to_f64()), uv_scale: uv_scale.into() }
+        Self {
+            carrier: Carrier::new(point.to_f64(), normal.to_f64()),
+            uv_scale: uv_scale.into(),
+        }
     }
     /// `H(P) = n.P + D`: the distance of `p` in metres, positive on the side of the normal.
     pub fn signed_distance(&self, p: Point3) -> f32 {
@@ -143,7 +151,13 @@ impl Kind for Plane {
         doc: "An infinite plane. Texture coordinates count from the point: along x and z for a floor (normal y), along x \
               and y for a wall (normal z), along y and z for normal x; tilted planes use those axes projected into them.",
         params: &[
-            ParamSpec::new("point", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "A point of the plane.").unit("m"),
+            ParamSpec::new(
+                "point",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0; 3]),
+                "A point of the plane.",
+            )
+            .unit("m"),
             ParamSpec::new(
                 "normal",
                 ParamType::Vector3,
@@ -156,7 +170,10 @@ impl Kind for Plane {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
-        let (point, normal) = (Point3::from(args.triple("point")), Vector3::from(args.triple("normal")));
+        let (point, normal) = (
+            Point3::from(args.triple("point")),
+            Vector3::from(args.triple("normal")),
+        );
         let uv_scale = args.float("uvscale");
         if normal == Vector3::ZERO {
             args.error("normal", "\"normal\" is the zero vector, which has no direction");
@@ -164,6 +181,7 @@ impl Kind for Plane {
         if uv_scale == 0.0 {
             args.error("uvscale", "\"uvscale\" is 0, expected more than 0");
         }
-        args.is_sound().then(|| Geometry::Shape(Box::new(Self::new(point, normal, uv_scale))))
+        args.is_sound()
+            .then(|| Geometry::Shape(Box::new(Self::new(point, normal, uv_scale))))
     }
 }

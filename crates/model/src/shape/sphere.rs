@@ -12,7 +12,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Geometry, Shape, ShapeHit, arc_angle};
+use super::{Geometry, Shape, ShapeHit, accept, arc_angle};
 use crate::Surface;
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
@@ -51,7 +51,14 @@ impl Sphere {
         let phi_max = arc_angle(phi_max);
         let whole = z_min == -radius && z_max == radius && phi_max == TAU;
         let theta = if whole { (PI, 0.0) } else { theta };
-        Self { radius, z_min, z_max, phi_max, theta, whole }
+        Self {
+            radius,
+            z_min,
+            z_max,
+            phi_max,
+            theta,
+            whole,
+        }
     }
 
     fn roots(&self, ray: &Ray) -> Option<Roots> {
@@ -71,14 +78,22 @@ impl Sphere {
         let room_error = 16.0 * f64::EPSILON * reach * reach;
         let half_error = (room_error / room.sqrt()).min(room_error.sqrt()) / a.sqrt();
         let error = half_error + 8.0 * f64::EPSILON * (o.length() / a.sqrt() + middle.abs() + half);
-        Some(Roots { near: middle - half, far: middle + half, error })
+        Some(Roots {
+            near: middle - half,
+            far: middle + half,
+            error,
+        })
     }
 
     /// The point at `t`, put back on the sphere.
     fn point(&self, ray: &Ray, t: f64) -> DVec3 {
         let p = ray.o.to_f64() + ray.d.to_f64() * t;
         let length = p.length();
-        if length > 0.0 { p * (f64::from(self.radius) / length) } else { DVec3::new(0.0, 0.0, self.radius.into()) }
+        if length > 0.0 {
+            p * (f64::from(self.radius) / length)
+        } else {
+            DVec3::new(0.0, 0.0, self.radius.into())
+        }
     }
 
     fn keeps(&self, p: DVec3) -> bool {
@@ -103,9 +118,12 @@ impl Shape for Sphere {
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
         let roots = self.roots(ray)?;
         [roots.near, roots.far].into_iter().find_map(|t| {
-            let rounded = t as f32;
-            let valid = t - f64::from(ray.t_min) > roots.error && rounded.is_finite() && ray.contains(rounded);
-            (valid && (self.whole || self.keeps(self.point(ray, t)))).then_some(ShapeHit { t: rounded, u: 0.0, v: 0.0 })
+            let rounded = accept(ray, t, roots.error)?;
+            (self.whole || self.keeps(self.point(ray, t))).then_some(ShapeHit {
+                t: rounded,
+                u: 0.0,
+                v: 0.0,
+            })
         })
     }
 
@@ -113,7 +131,11 @@ impl Shape for Sphere {
         // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
         let wanted = f64::from(hit.t);
         let t = self.roots(ray).map_or(wanted, |roots| {
-            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() { roots.near } else { roots.far }
+            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() {
+                roots.near
+            } else {
+                roots.far
+            }
         });
         let exact = self.point(ray, t);
         let p = Point3::from_f64(exact);
@@ -122,7 +144,11 @@ impl Shape for Sphere {
         let theta = float::atan2(across as f32, p.z);
         let (bottom, top) = self.theta;
         // A pole has no azimuth: any will do.
-        let (cos_phi, sin_phi) = if across > 0.0 { (exact.x / across, exact.y / across) } else { (1.0, 0.0) };
+        let (cos_phi, sin_phi) = if across > 0.0 {
+            (exact.x / across, exact.y / across)
+        } else {
+            (1.0, 0.0)
+        };
         let down = Vector3::from_f64(DVec3::new(exact.z * cos_phi, exact.z * sin_phi, -across));
         Surface {
             p,
@@ -148,12 +174,30 @@ impl Kind for Sphere {
         aliases: &[],
         doc: "A sphere around the origin, whole or cut by two heights and an angle. Its poles lie on the z axis.",
         params: &[
-            ParamSpec::float("radius", 1.0, "Radius; more than 0.").unit("m").range(0.0, f32::INFINITY),
-            ParamSpec::new("zmin", ParamType::Float, ParamDefault::Unset, "Lowest z kept; default -radius.").unit("m"),
-            ParamSpec::new("zmax", ParamType::Float, ParamDefault::Unset, "Highest z kept; default radius.").unit("m"),
-            ParamSpec::float("phimax", 360.0, "Angle kept about the z axis, from the x axis towards y; more than 0.")
-                .unit("deg")
-                .range(0.0, 360.0),
+            ParamSpec::float("radius", 1.0, "Radius; more than 0.")
+                .unit("m")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "zmin",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Lowest z kept; default -radius.",
+            )
+            .unit("m"),
+            ParamSpec::new(
+                "zmax",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Highest z kept; default radius.",
+            )
+            .unit("m"),
+            ParamSpec::float(
+                "phimax",
+                360.0,
+                "Angle kept about the z axis, from the x axis towards y; more than 0.",
+            )
+            .unit("deg")
+            .range(0.0, 360.0),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
@@ -166,8 +210,12 @@ impl Kind for Sphere {
         let z_min = args.optional_float("zmin").unwrap_or(-radius);
         let z_max = args.optional_float("zmax").unwrap_or(radius);
         if args.is_sound() && z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {
-            args.error("zmin", format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"));
+            args.error(
+                "zmin",
+                format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"),
+            );
         }
-        args.is_sound().then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
+        args.is_sound()
+            .then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
     }
 }

@@ -1,6 +1,14 @@
 //! Colours and numbers that vary over a surface.
 //!
-//! A new texture is one file here and one line in [`TEXTURES`].
+//! A new texture is one file here and one line in [`COLOR_TEXTURES`], [`FLOAT_TEXTURES`] or both: the same word takes
+//! other parameters depending on what it is to yield.
+
+mod checkerboard;
+mod constant;
+mod imagemap;
+mod mapping;
+mod scale;
+mod value;
 
 use std::fmt::Debug;
 
@@ -8,9 +16,15 @@ use durer_core::{
     math::{Point2, Point3},
     spectrum::Color,
 };
-use durer_scene::Entry;
+use durer_scene::{ColorInput, Entry, FloatInput, TextureValue};
 
 use crate::ShadeCx;
+
+pub use checkerboard::Checkerboard;
+pub use constant::Constant;
+pub use imagemap::{ColorImageMap, FloatImageMap, ImageMap};
+pub use scale::Scale;
+pub use value::Value;
 
 /// Where a texture is looked up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,5 +45,26 @@ pub trait Texture: Debug + Send + Sync {
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
 }
 
-/// All kinds of texture.
-pub const TEXTURES: &[Entry<Box<dyn Texture>>] = &[];
+/// All kinds of texture that yield colours.
+pub const COLOR_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
+    Entry::of::<Checkerboard<ColorInput>>(),
+    Entry::of::<Constant<ColorInput>>(),
+    Entry::of::<ColorImageMap>(),
+    Entry::of::<Scale<ColorInput>>(),
+];
+
+/// All kinds of texture that yield numbers.
+pub const FLOAT_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
+    Entry::of::<Checkerboard<FloatInput>>(),
+    Entry::of::<Constant<FloatInput>>(),
+    Entry::of::<FloatImageMap>(),
+    Entry::of::<Scale<FloatInput>>(),
+];
+
+/// The register of textures that yield `value`.
+pub fn textures(value: TextureValue) -> &'static [Entry<Box<dyn Texture>>] {
+    match value {
+        TextureValue::Color => COLOR_TEXTURES,
+        TextureValue::Float => FLOAT_TEXTURES,
+    }
+}

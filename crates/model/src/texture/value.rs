@@ -2,19 +2,20 @@
 use std::fmt::Debug;
 
 use durer_core::spectrum::Color;
-use durer_scene::{Args, ColorInput, FloatInput, ParamSpec};
+use durer_scene::{Args, ColorInput, FloatInput, ParamDefault, ParamType};
 
 use super::TextureAt;
 use crate::ShadeCx;
 
-/// An input of a texture that yields the same kind of value.
-pub(super) trait Value: Debug + Copy + Send + Sync + 'static {
-    /// The parameter `name`, grey by default.
-    fn spec(name: &'static str, default: f32, doc: &'static str) -> ParamSpec {
-        let _ = (name, default, doc);
-        ParamSpec::float(name, default, doc)
-    }
-    /// Its value in `args`.
+/// An input of a texture, of the kind of value that the texture itself yields.
+pub trait Value: Debug + Copy + Send + Sync + 'static {
+    /// What scene files may give.
+    const TYPE: ParamType;
+    /// 0 or black.
+    const ZERO: ParamDefault;
+    /// 1 or white.
+    const ONE: ParamDefault;
+    /// The parameter `name` of `args`.
     fn read(args: &mut Args<'_>, name: &str) -> Self;
     /// As a colour; a number is grey.
     fn color(self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
@@ -23,6 +24,9 @@ pub(super) trait Value: Debug + Copy + Send + Sync + 'static {
 }
 
 impl Value for ColorInput {
+    const TYPE: ParamType = ParamType::ColorTexture;
+    const ZERO: ParamDefault = ParamDefault::Triple([0.0; 3]);
+    const ONE: ParamDefault = ParamDefault::Triple([1.0; 3]);
     fn read(args: &mut Args<'_>, name: &str) -> Self {
         args.color_input(name)
     }
@@ -35,6 +39,9 @@ impl Value for ColorInput {
 }
 
 impl Value for FloatInput {
+    const TYPE: ParamType = ParamType::FloatTexture;
+    const ZERO: ParamDefault = ParamDefault::Float(0.0);
+    const ONE: ParamDefault = ParamDefault::Float(1.0);
     fn read(args: &mut Args<'_>, name: &str) -> Self {
         args.float_input(name)
     }

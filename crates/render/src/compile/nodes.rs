@@ -8,7 +8,7 @@ use durer_model::{
     light::{self, LIGHTS, Light},
     material::{self, MATERIALS, Material},
     shape::{Geometry, SHAPES},
-    texture::{TEXTURES, Texture},
+    texture::{self, Texture},
 };
 use durer_scene::{
     Args, Assets, Diagnostics, Entry, LightDesc, Missing, Node, Params, SceneDesc, ShapeSource, TextureDesc, find,
@@ -44,7 +44,7 @@ impl Builder<'_> {
         let all = &self.desc.textures;
         let built = all.iter().enumerate().map(|(i, t)| {
             let before = all.get(..i).unwrap_or_default();
-            self.build(TEXTURES, "texture", &t.node, before)
+            self.build(texture::textures(t.value), "texture", &t.node, before)
         });
         built.collect::<Vec<_>>().into_iter().flatten().collect()
     }
@@ -75,8 +75,8 @@ impl Builder<'_> {
     pub(super) fn lights(&mut self, lights: &[LightDesc], to_render: DVec3) -> Vec<(Box<dyn Light>, String)> {
         let mut built = Vec::new();
         for desc in lights {
-            if let Some((_, why)) = light::NOT_YET.iter().find(|(word, _)| *word == desc.node.kind) {
-                let message = format!("light \"{}\" is not supported yet: {why}", desc.node.kind);
+            if light::NOT_YET.contains(&desc.node.kind.as_str()) {
+                let message = format!("light \"{}\" is not supported yet: it gives no light", desc.node.kind);
                 self.diagnostics.warning(desc.node.at.clone(), message);
                 continue;
             }

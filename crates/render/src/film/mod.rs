@@ -8,7 +8,7 @@ mod develop;
 mod tile;
 mod tonemap;
 
-pub use develop::{Developed, develop, develop_depth};
+pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data};
 pub use tile::Tile;
 pub use tonemap::ToneMap;
 

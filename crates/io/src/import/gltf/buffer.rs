@@ -32,16 +32,24 @@ pub(super) fn parse_uri<'a>(element: &Element<'a>) -> Checked<Uri<'a>> {
     let uri = element.text()?;
     let Some(rest) = uri.strip_prefix("data:") else {
         if uri.split_once("://").is_some() {
-            return Err(element.fault("addresses of the web are not followed; expected a path beside the file"));
+            return Err(
+                element.fault("addresses of the web are not followed; expected a path beside the file")
+            );
         }
         let path = percent_decode_str(uri).decode_utf8();
-        return path.map(Uri::Path).map_err(|_| element.fault("the percent-encoded path is not UTF-8"));
+        return path
+            .map(Uri::Path)
+            .map_err(|_| element.fault("the percent-encoded path is not UTF-8"));
     };
-    let (kind, data) = rest.split_once(',').ok_or_else(|| element.fault("a data: URI without comma"))?;
+    let (kind, data) = rest
+        .split_once(',')
+        .ok_or_else(|| element.fault("a data: URI without comma"))?;
     if !kind.ends_with(";base64") {
         return Ok(Uri::Data(percent_decode_str(data).collect()));
     }
-    let bytes = BASE64.decode(data).map_err(|e| element.fault(format!("not valid base64: {e}")))?;
+    let bytes = BASE64
+        .decode(data)
+        .map_err(|e| element.fault(format!("not valid base64: {e}")))?;
     Ok(Uri::Data(bytes))
 }
 
@@ -61,9 +69,9 @@ impl Bytes<'_> {
     }
 }
 
-/// All buffers of a document.
+/// All buffers of a document. One that could not be loaded is complained about when it is used.
 pub(super) struct Buffers<'a> {
-    list: Vec<Bytes<'a>>,
+    list: Vec<Checked<Bytes<'a>>>,
 }
 
 /// A stretch of a buffer.
@@ -80,47 +88,71 @@ pub(super) struct View<'b, 'a> {
 impl<'a> Buffers<'a> {
     /// Loads every buffer; `bin` is the binary chunk.
     pub(super) fn load(document: &Document<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Self> {
-        let mut list = Vec::new();
-        for (index, element) in document.root.list("buffers")?.into_iter().enumerate() {
-            let bytes = load(&element, bin.filter(|_| index == 0), assets)?;
-            let length = element.required("byteLength")?;
-            let (wanted, found) = (length.index()?, bytes.as_slice().len());
-            if found < wanted {
-                return Err(length.fault(format!("{wanted} bytes announced, but the buffer has {found}")));
-            }
-            list.push(bytes);
-        }
-        Ok(Self { list })
+        let buffers = document.root.list("buffers")?.into_iter().enumerate();
+        let load = |(index, element)| load(&element, bin.filter(|_| index == 0), assets);
+        Ok(Self {
+            list: buffers.map(load).collect(),
+        })
     }
     /// Bytes of all buffers together.
     pub(super) fn total(&self) -> u64 {
-        self.list.iter().map(|b| b.as_slice().len() as u64).sum()
+        self.list
+            .iter()
+            .flatten()
+            .map(|b| b.as_slice().len() as u64)
+            .sum()
     }
     /// The buffer view that `reference` names by index.
-    pub(super) fn view<'b>(&'b self, document: &Document<'a>, reference: &Element<'a>) -> Checked<View<'b, 'a>> {
+    pub(super) fn view<'b>(
+        &'b self,
+        document: &Document<'a>,
+        reference: &Element<'a>,
+    ) -> Checked<View<'b, 'a>> {
         let element = document.item("bufferViews", reference)?;
         let buffer = element.required("buffer")?;
-        let length = document.item("buffers", &buffer)?.required("byteLength")?.index()?;
-        let bytes = self.list.get(buffer.index()?).map_or(&[][..], Bytes::as_slice);
-        let bytes = bytes.get(..length).unwrap_or(bytes);
+        document.item("buffers", &buffer)?;
+        let bytes = match self.list.get(buffer.index()?) {
+            Some(Ok(bytes)) => bytes.as_slice(),
+            Some(Err(fault)) => return Err(fault.clone()),
+            None => &[],
+        };
         let start = element.index_or("byteOffset", 0)?;
         let size = element.required("byteLength")?.index()?;
-        let view = bytes.get(start..).and_then(|rest| rest.get(..size)).ok_or_else(|| {
-            let reach = start.saturating_add(size);
-            element.fault(format!("reaches to byte {reach}, but the buffer has {}", bytes.len()))
-        })?;
+        let view = bytes
+            .get(start..)
+            .and_then(|rest| rest.get(..size))
+            .ok_or_else(|| {
+                let reach = start.saturating_add(size);
+                element.fault(format!(
+                    "reaches to byte {reach}, but the buffer has {}",
+                    bytes.len()
+                ))
+            })?;
         let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
-        Ok(View { bytes: view, stride, element })
+        Ok(View {
+            bytes: view,
+            stride,
+            element,
+        })
     }
 }
 
 fn load<'a>(element: &Element<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Bytes<'a>> {
-    let Some(uri) = element.get("uri")? else {
-        let missing = "expected \"uri\" or, for the first buffer of a .glb file, a binary chunk";
-        return bin.map(Bytes::Chunk).ok_or_else(|| element.fault(missing));
+    let length = element.required("byteLength")?;
+    let wanted = length.index()?;
+    let bytes = match element.get("uri")? {
+        None => {
+            let missing = "expected \"uri\" or, for the first buffer of a .glb file, a binary chunk";
+            Bytes::Chunk(bin.ok_or_else(|| element.fault(missing))?)
+        }
+        Some(uri) => match parse_uri(&uri)? {
+            Uri::Data(bytes) => Bytes::Owned(bytes),
+            Uri::Path(path) => Bytes::File(assets.bytes(&path).map_err(|e| uri.fault(e.to_string()))?),
+        },
     };
-    match parse_uri(&uri)? {
-        Uri::Data(bytes) => Ok(Bytes::Owned(bytes)),
-        Uri::Path(path) => assets.bytes(&path).map(Bytes::File).map_err(|e| uri.fault(e.to_string())),
+    let found = bytes.as_slice().len();
+    if found < wanted {
+        return Err(length.fault(format!("{wanted} bytes announced, but the buffer has {found}")));
     }
+    Ok(bytes)
 }

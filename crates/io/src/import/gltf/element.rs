@@ -36,7 +36,10 @@ fn kind(value: &Value) -> &'static str {
 impl<'a> Element<'a> {
     /// The whole document.
     pub(super) fn root(value: &'a Value) -> Self {
-        Self { value, pointer: String::new() }
+        Self {
+            value,
+            pointer: String::new(),
+        }
     }
     /// JSON pointer.
     pub(super) fn pointer(&self) -> &str {
@@ -44,14 +47,29 @@ impl<'a> Element<'a> {
     }
     /// A complaint about this place.
     pub(super) fn fault(&self, message: impl Into<String>) -> Fault {
-        Fault { pointer: self.pointer.clone(), message: message.into(), hint: None }
+        Fault {
+            pointer: self.pointer.clone(),
+            message: message.into(),
+            hint: None,
+        }
+    }
+    /// A complaint about the member `key`, whether or not it is written.
+    pub(super) fn fault_at(&self, key: &str, message: impl Into<String>) -> Fault {
+        Fault {
+            pointer: format!("{}/{key}", self.pointer),
+            message: message.into(),
+            hint: None,
+        }
     }
     fn expected(&self, what: &str) -> Fault {
         self.fault(format!("expected {what}, found {}", kind(self.value)))
     }
     fn child(&self, key: &str, value: &'a Value) -> Self {
         let key = key.replace('~', "~0").replace('/', "~1");
-        Self { value, pointer: format!("{}/{key}", self.pointer) }
+        Self {
+            value,
+            pointer: format!("{}/{key}", self.pointer),
+        }
     }
     /// The member `key` of an object, if there is one.
     pub(super) fn get(&self, key: &str) -> Checked<Option<Self>> {
@@ -60,7 +78,8 @@ impl<'a> Element<'a> {
     }
     /// The member `key` of an object.
     pub(super) fn required(&self, key: &str) -> Checked<Self> {
-        self.get(key)?.ok_or_else(|| self.fault(format!("\"{key}\" is missing")))
+        self.get(key)?
+            .ok_or_else(|| self.fault(format!("\"{key}\" is missing")))
     }
     /// The extension object `name`.
     pub(super) fn extension(&self, name: &str) -> Checked<Option<Self>> {
@@ -73,7 +92,10 @@ impl<'a> Element<'a> {
     pub(super) fn items(&self) -> Checked<impl ExactSizeIterator<Item = Self> + use<'a>> {
         let array = self.value.as_array().ok_or_else(|| self.expected("an array"))?;
         let pointer = self.pointer.clone();
-        Ok(array.iter().enumerate().map(move |(i, value)| Self { value, pointer: format!("{pointer}/{i}") }))
+        Ok(array.iter().enumerate().map(move |(i, value)| Self {
+            value,
+            pointer: format!("{pointer}/{i}"),
+        }))
     }
     /// The elements of the array `key`; none if it is missing.
     pub(super) fn list(&self, key: &str) -> Checked<Vec<Self>> {
@@ -84,13 +106,20 @@ impl<'a> Element<'a> {
     }
     /// Element `index` of the array `key`; `None` if there are fewer.
     pub(super) fn list_item(&self, key: &str, index: usize) -> Checked<Option<Self>> {
-        let Some(list) = self.get(key)? else { return Ok(None) };
+        let Some(list) = self.get(key)? else {
+            return Ok(None);
+        };
         let array = list.value.as_array().ok_or_else(|| list.expected("an array"))?;
-        Ok(array.get(index).map(|value| list.child(&index.to_string(), value)))
+        Ok(array
+            .get(index)
+            .map(|value| list.child(&index.to_string(), value)))
     }
     /// The names of an object's members.
     pub(super) fn keys(&self) -> impl Iterator<Item = &'a str> + use<'a> {
-        self.value.as_object().into_iter().flat_map(|o| o.keys().map(String::as_str))
+        self.value
+            .as_object()
+            .into_iter()
+            .flat_map(|o| o.keys().map(String::as_str))
     }
     /// A number that fits an `f32`.
     pub(super) fn number(&self) -> Checked<f64> {
@@ -106,7 +135,7 @@ impl<'a> Element<'a> {
         let whole = match (self.value.as_u64(), self.value.as_f64()) {
             (Some(n), _) => n,
             // Some exporters write 3.0.
-            (None, Some(f)) if f >= 0.0 && f < 9e15 && f.fract() == 0.0 => f as u64,
+            (None, Some(f)) if (0.0..9e15).contains(&f) && f.fract() == 0.0 => f as u64,
             (None, Some(_)) => return Err(wrong()),
             (None, None) => return Err(self.expected("a whole number")),
         };
@@ -121,7 +150,9 @@ impl<'a> Element<'a> {
         let items = self.items()?;
         let found = items.len();
         let numbers = items.map(|i| i.number()).collect::<Checked<Vec<f64>>>()?;
-        numbers.try_into().map_err(|_| self.fault(format!("expected {N} numbers, found {found}")))
+        numbers
+            .try_into()
+            .map_err(|_| self.fault(format!("expected {N} numbers, found {found}")))
     }
 
     /// The number `key`, or `default` if it is missing.
@@ -142,7 +173,9 @@ impl<'a> Element<'a> {
     }
     /// The truth value `key`; false if it is missing.
     pub(super) fn flag(&self, key: &str) -> Checked<bool> {
-        let Some(flag) = self.get(key)? else { return Ok(false) };
+        let Some(flag) = self.get(key)? else {
+            return Ok(false);
+        };
         flag.value.as_bool().ok_or_else(|| flag.expected("true or false"))
     }
     /// The member `name`, or nothing: a missing or ill-typed name is no reason to refuse a scene.
@@ -161,10 +194,21 @@ mod tests {
         let list = Element::root(&value).list("a/b").unwrap_or_default();
         let fault = list.get(1).map(Element::number);
         let text = "expected a number, found a string".to_owned();
-        assert_eq!(fault, Some(Err(Fault { pointer: "/a~1b/1".to_owned(), message: text, hint: None })));
+        assert_eq!(
+            fault,
+            Some(Err(Fault {
+                pointer: "/a~1b/1".to_owned(),
+                message: text,
+                hint: None
+            }))
+        );
         assert_eq!(list.get(2).map(Element::index), Some(Ok(3)));
         assert!(matches!(list.get(3).map(Element::index), Some(Err(_))));
         assert!(matches!(list.get(4).map(Element::number), Some(Err(_))));
-        assert!(Element::root(&value).required("c").is_err_and(|f| f.message.contains("\"c\" is missing")));
+        assert!(
+            Element::root(&value)
+                .required("c")
+                .is_err_and(|f| f.message.contains("\"c\" is missing"))
+        );
     }
 }

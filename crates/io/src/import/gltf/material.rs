@@ -11,22 +11,35 @@ use super::{
 };
 
 /// The materials of a document, by index; one that is at fault stays in its place with no parameters.
-pub(super) fn materials<'a>(document: &Document<'a>, textures: &mut Textures<'_, 'a>) -> Checked<Vec<NamedNode>> {
+pub(super) fn materials<'a>(
+    document: &Document<'a>,
+    textures: &mut Textures<'_, 'a>,
+) -> Checked<Vec<NamedNode>> {
     let list = document.root.list("materials")?.into_iter().enumerate();
     let made = list.map(|(index, element)| {
         let name = match element.name() {
             "" => format!("material:{index}"),
             name => name.to_owned(),
         };
-        let params = document.keep(principled(document, &element, textures)).unwrap_or_default();
-        NamedNode { name, node: Node::new("principled", params) }
+        let params = document
+            .keep(principled(document, &element, textures))
+            .unwrap_or_default();
+        NamedNode {
+            name,
+            node: Node::new("principled", params),
+        }
     });
     Ok(made.collect())
 }
 
 /// The material of a primitive.
-pub(super) fn reference<'a>(document: &Document<'a>, primitive: &Element<'a>) -> Checked<Option<MaterialRef>> {
-    let Some(reference) = primitive.get("material")? else { return Ok(None) };
+pub(super) fn reference<'a>(
+    document: &Document<'a>,
+    primitive: &Element<'a>,
+) -> Checked<Option<MaterialRef>> {
+    let Some(reference) = primitive.get("material")? else {
+        return Ok(None);
+    };
     document.item("materials", &reference)?;
     Ok(Some(Id::new(reference.index()? as u32)))
 }
@@ -42,12 +55,23 @@ fn principled<'a>(
     material: &Element<'a>,
     textures: &mut Textures<'_, 'a>,
 ) -> Checked<Params> {
-    let mut builder = Builder { document, textures, params: Params::new() };
+    let mut builder = Builder {
+        document,
+        textures,
+        params: Params::new(),
+    };
     let unlit = material.extension("KHR_materials_unlit")?.is_some();
     let pbr = material.get("pbrMetallicRoughness")?;
-    builder.base(material, pbr.as_ref(), if unlit { "emission" } else { "basecolor" })?;
+    builder.base(
+        material,
+        pbr.as_ref(),
+        if unlit { "emission" } else { "basecolor" },
+    )?;
     if unlit {
-        document.warn(material, "unlit materials are drawn as black ones that emit their colour");
+        document.warn(
+            material,
+            "unlit materials are drawn as black ones that emit their colour",
+        );
         // An index of 1 reflects nothing.
         builder.params = builder.params.rgb("basecolor", [0.0; 3]).float("eta", 1.0);
         return Ok(builder.params);
@@ -70,12 +94,19 @@ impl<'a> Builder<'_, '_, 'a> {
         let [low, high] = range;
         if value < low || value > high {
             let at = from.get(key)?.unwrap_or_else(|| from.clone());
-            self.document.warn(&at, format!("{key} {value} lies outside {low} to {high}"));
+            self.document
+                .warn(&at, format!("{key} {value} lies outside {low} to {high}"));
         }
         Ok(value.clamp(low, high))
     }
     /// A float parameter: the channel of a texture times `factor`, or `factor` alone.
-    fn float(&mut self, name: &str, info: Option<Element<'a>>, channel: &'static str, factor: f64) -> Checked<()> {
+    fn float(
+        &mut self,
+        name: &str,
+        info: Option<Element<'a>>,
+        channel: &'static str,
+        factor: f64,
+    ) -> Checked<()> {
         let texture = match info {
             // A factor of 0 makes the texture idle.
             Some(info) if factor != 0.0 => self.textures.texture(&info, Role::Channel(channel, factor))?,
@@ -102,7 +133,10 @@ impl<'a> Builder<'_, '_, 'a> {
 
     fn base(&mut self, material: &Element<'a>, pbr: Option<&Element<'a>>, name: &str) -> Checked<()> {
         let (factor, info) = match pbr {
-            Some(pbr) => (pbr.numbers_or("baseColorFactor", [1.0; 4])?, pbr.get("baseColorTexture")?),
+            Some(pbr) => (
+                pbr.numbers_or("baseColorFactor", [1.0; 4])?,
+                pbr.get("baseColorTexture")?,
+            ),
             None => ([1.0; 4], None),
         };
         let [r, g, b, a] = factor;
@@ -112,8 +146,8 @@ impl<'a> Builder<'_, '_, 'a> {
             "MASK" => "mask",
             "BLEND" => "blend",
             other => {
-                let message = format!("/alphaMode: expected OPAQUE, MASK or BLEND, found \"{other}\"");
-                return Err(material.fault(message));
+                let message = format!("expected OPAQUE, MASK or BLEND, found \"{other}\"");
+                return Err(material.fault_at("alphaMode", message));
             }
         };
         self.put(|p| p.string("alphamode", mode));
@@ -149,8 +183,12 @@ impl<'a> Builder<'_, '_, 'a> {
     }
 
     fn normal(&mut self, material: &Element<'a>) -> Checked<()> {
-        let Some(info) = material.get("normalTexture")? else { return Ok(()) };
-        let Some(texture) = self.textures.texture(&info, Role::Normal)? else { return Ok(()) };
+        let Some(info) = material.get("normalTexture")? else {
+            return Ok(());
+        };
+        let Some(texture) = self.textures.texture(&info, Role::Normal)? else {
+            return Ok(());
+        };
         let scale = info.number_or("scale", 1.0)?;
         self.put(|p| p.texture("normal", &texture));
         if scale != 1.0 {

@@ -37,7 +37,12 @@ enum Mode {
 impl<'b, 'a> Meshes<'b, 'a> {
     /// None yet.
     pub(super) fn new(document: &'b Document<'a>, buffers: &'b Buffers<'a>) -> Self {
-        Self { document, buffers, made: HashMap::new(), list: Vec::new() }
+        Self {
+            document,
+            buffers,
+            made: HashMap::new(),
+            list: Vec::new(),
+        }
     }
 
     /// The mesh of a primitive; `None` if there is nothing to draw.
@@ -50,19 +55,26 @@ impl<'b, 'a> Meshes<'b, 'a> {
             4 => Mode::Triangles,
             5 => Mode::Strip,
             6 => Mode::Fan,
-            other => return Err(primitive.fault(format!("/mode: expected 0 to 6, found {other}"))),
+            other => return Err(primitive.fault_at("mode", format!("expected 0 to 6, found {other}"))),
         };
         let attributes = primitive.required("attributes")?;
         let mut key = format!("{}", mode as u8);
         for name in ATTRIBUTES {
-            key += &attributes.get(name)?.map_or(Ok("-".to_owned()), |e| Ok(format!(" {}", e.index()?)))?;
+            key += &attributes
+                .get(name)?
+                .map_or(Ok("-".to_owned()), |e| Ok(format!(" {}", e.index()?)))?;
         }
-        key += &primitive.get("indices")?.map_or(Ok(String::new()), |e| Ok(format!(" {}", e.index()?)))?;
+        key += &primitive
+            .get("indices")?
+            .map_or(Ok(String::new()), |e| Ok(format!(" {}", e.index()?)))?;
         if let Some(made) = self.made.get(&key) {
             return Ok(*made);
         }
         if !primitive.list("targets")?.is_empty() {
-            self.document.warn(primitive, "morph targets are not applied yet: the mesh is drawn at rest");
+            self.document.warn(
+                primitive,
+                "morph targets are not applied yet: the mesh is drawn at rest",
+            );
         }
         let made = self.build(primitive, &attributes, mode)?.map(|mesh| {
             self.list.push(Arc::new(mesh));
@@ -73,7 +85,9 @@ impl<'b, 'a> Meshes<'b, 'a> {
     }
 
     fn attribute(&self, attributes: &Element<'a>, name: &str) -> Checked<Option<Accessor<'b, 'a>>> {
-        let Some(reference) = attributes.get(name)? else { return Ok(None) };
+        let Some(reference) = attributes.get(name)? else {
+            return Ok(None);
+        };
         Accessor::open(self.document, self.buffers, &reference).map(Some)
     }
 
@@ -92,13 +106,17 @@ impl<'b, 'a> Meshes<'b, 'a> {
             }
             None => {
                 document.spend(&positions.element, positions.count, 4)?;
-                let count = u32::try_from(positions.count).map_err(|e| positions.element.fault(e.to_string()))?;
+                let count =
+                    u32::try_from(positions.count).map_err(|e| positions.element.fault(e.to_string()))?;
                 (0..count).collect()
             }
         };
         document.spend(primitive, corners.len(), 12)?;
         if matches!(mode, Mode::Triangles) && corners.len() % 3 != 0 {
-            document.warn(primitive, "the number of indices is not a multiple of 3; the last ones are ignored");
+            document.warn(
+                primitive,
+                "the number of indices is not a multiple of 3; the last ones are ignored",
+            );
         }
         let mut indices = triangles(&corners, mode);
         if indices.is_empty() {
@@ -106,13 +124,30 @@ impl<'b, 'a> Meshes<'b, 'a> {
             return Ok(None);
         }
         let used = used_vertices(&corners, positions.count, &mut indices);
-        let read = Columns { meshes: self, attributes, vertices: positions.count, which: used.as_deref() };
+        let read = Columns {
+            meshes: self,
+            attributes,
+            vertices: positions.count,
+            which: used.as_deref(),
+        };
         let mesh = Mesh {
-            positions: positions.floats::<3>(document, used.as_deref())?.into_iter().map(Point3::from).collect(),
+            positions: positions
+                .floats::<3>(document, used.as_deref())?
+                .into_iter()
+                .map(Point3::from)
+                .collect(),
             indices,
-            normals: read.column::<3>("NORMAL")?.into_iter().map(Normal3::from).collect(),
+            normals: read
+                .column::<3>("NORMAL")?
+                .into_iter()
+                .map(Normal3::from)
+                .collect(),
             // v of glTF grows downwards, ours upwards.
-            uvs: read.column("TEXCOORD_0")?.into_iter().map(|[u, v]| Point2::new(u, 1.0 - v)).collect(),
+            uvs: read
+                .column("TEXCOORD_0")?
+                .into_iter()
+                .map(|[u, v]| Point2::new(u, 1.0 - v))
+                .collect(),
             tangents: read.column("TANGENT")?,
             colors: read.colors()?,
         };
@@ -142,20 +177,27 @@ impl<'b, 'a> Columns<'_, 'b, 'a> {
     }
     /// The attribute, or nothing if it is missing or holds infinities: a renderer could do nothing with them.
     fn column<const N: usize>(&self, name: &str) -> Checked<Vec<[f32; N]>> {
-        let Some(accessor) = self.open(name)? else { return Ok(Vec::new()) };
+        let Some(accessor) = self.open(name)? else {
+            return Ok(Vec::new());
+        };
         let rows = accessor.floats::<N>(self.meshes.document, self.which)?;
         if rows.iter().flatten().all(|v| v.is_finite()) {
             return Ok(rows);
         }
-        self.meshes.document.warn(&accessor.element, format!("{name} holds infinite or NaN numbers; ignored"));
+        self.meshes.document.warn(
+            &accessor.element,
+            format!("{name} holds infinite or NaN numbers; ignored"),
+        );
         Ok(Vec::new())
     }
     /// Vertex colours with or without alpha.
     fn colors(&self) -> Checked<Vec<[f32; 4]>> {
         match self.open("COLOR_0")? {
-            Some(a) if a.lanes == 3 => {
-                Ok(self.column("COLOR_0")?.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect())
-            }
+            Some(a) if a.lanes == 3 => Ok(self
+                .column("COLOR_0")?
+                .into_iter()
+                .map(|[r, g, b]| [r, g, b, 1.0])
+                .collect()),
             _ => self.column("COLOR_0"),
         }
     }
@@ -185,8 +227,13 @@ fn triangles(corners: &[u32], mode: Mode) -> Vec<[u32; 3]> {
             corners.windows(3).enumerate().filter_map(turn).collect()
         }
         Mode::Fan => {
-            let Some((&hub, rim)) = corners.split_first() else { return Vec::new() };
-            rim.iter().zip(rim.iter().skip(1)).map(|(&a, &b)| [a, b, hub]).collect()
+            let Some((&hub, rim)) = corners.split_first() else {
+                return Vec::new();
+            };
+            rim.iter()
+                .zip(rim.iter().skip(1))
+                .map(|(&a, &b)| [a, b, hub])
+                .collect()
         }
     }
 }

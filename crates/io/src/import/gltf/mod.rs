@@ -26,7 +26,7 @@ use self::{
     document::Document,
     element::{Checked, Element},
     mesh::Meshes,
-    node::Walk,
+    node::{NodeRef, Walk},
     texture::Textures,
 };
 use super::Imported;
@@ -37,7 +37,13 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
     let file = path.display().to_string();
     let limits = imported.assets.limits();
     if let Err(message) = parse(path, &file, limits, imported) {
-        imported.diagnostics.error(Location::Path { file, pointer: String::new() }, message);
+        imported.diagnostics.error(
+            Location::Path {
+                file,
+                pointer: String::new(),
+            },
+            message,
+        );
     }
 }
 
@@ -64,13 +70,21 @@ fn import<'a>(document: &Document<'a>, bin: Option<&'a [u8]>, imported: &mut Imp
     let desc = &mut imported.desc;
     desc.materials = materials(document, &buffers, &mut imported.assets, &mut desc.textures)?;
     let roots = roots(document)?;
-    let mut walk = Walk { document, buffers: &buffers, meshes: Meshes::new(document, &buffers), desc };
+    let mut walk = Walk {
+        document,
+        buffers: &buffers,
+        meshes: Meshes::new(document, &buffers),
+        desc,
+    };
     let walked = walk.run(roots);
     let meshes = std::mem::take(&mut walk.meshes.list);
     desc.meshes = meshes;
     let animations = document.root.list("animations")?;
     if let Some(first) = animations.first() {
-        document.note(first, format!("animations are not played yet: {}", animations.len()));
+        document.note(
+            first,
+            format!("animations are not played yet: {}", animations.len()),
+        );
     }
     walked
 }
@@ -91,7 +105,9 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
     let asset = document.root.required("asset")?;
     let version = asset.required("version")?;
     let text = version.text()?;
-    let numbers = text.split_once('.').map(|(a, b)| (a.parse::<u32>(), b.parse::<u32>()));
+    let numbers = text
+        .split_once('.')
+        .map(|(a, b)| (a.parse::<u32>(), b.parse::<u32>()));
     match numbers {
         Some((Ok(2), Ok(_))) => {}
         Some((Ok(_), Ok(_))) => {
@@ -109,18 +125,39 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
     }
 }
 
-/// The indices of the nodes at the top: those of the scene the file opens with, else of the first scene.
-fn roots<'a>(document: &Document<'a>) -> Checked<Vec<Element<'a>>> {
+/// The indices of the nodes at the top: those of the scene the file opens with, else of the first scene, else all
+/// nodes that are no other's child.
+fn roots<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
     let scene = match document.member(&document.root, "scene", "scenes")? {
         Some(scene) => Some(scene),
         None => document.root.list_item("scenes", 0)?,
     };
     match scene {
-        Some(scene) => scene.list("nodes"),
+        Some(scene) => scene.list("nodes")?.into_iter().map(NodeRef::parse).collect(),
         None => {
-            let at = document.root.clone();
-            document.warn(&at, "the file holds no scene, so there is nothing to draw");
-            Ok(Vec::new())
+            document.warn(
+                &document.root,
+                "the file holds no scene; all of its nodes are drawn",
+            );
+            orphans(document)
         }
     }
+}
+
+fn orphans<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
+    let nodes = document.root.list("nodes")?;
+    let mut orphan = vec![true; nodes.len()];
+    for node in &nodes {
+        for child in node.list("children")? {
+            if let Some(orphan) = orphan.get_mut(child.index()?) {
+                *orphan = false;
+            }
+        }
+    }
+    let free = nodes
+        .into_iter()
+        .enumerate()
+        .zip(orphan)
+        .filter(|(_, orphan)| *orphan);
+    Ok(free.map(|((index, at), _)| NodeRef { index, at }).collect())
 }

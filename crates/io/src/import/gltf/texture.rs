@@ -1,6 +1,7 @@
 //! Textures: images by name, samplers, and texture transforms turned to our v, which grows upwards.
 use std::collections::HashMap;
 
+use durer_core::math::float;
 use durer_scene::{Data, Node, Params, TextureDesc, TextureValue, ValueType};
 
 use super::{
@@ -34,26 +35,53 @@ pub(super) struct Textures<'b, 'a> {
 
 impl<'b, 'a> Textures<'b, 'a> {
     /// None yet.
-    pub(super) fn new(document: &'b Document<'a>, buffers: &'b Buffers<'a>, assets: &'b mut FileAssets) -> Self {
+    pub(super) fn new(
+        document: &'b Document<'a>,
+        buffers: &'b Buffers<'a>,
+        assets: &'b mut FileAssets,
+    ) -> Self {
         let (filenames, names) = (HashMap::new(), HashMap::new());
-        Self { document, buffers, assets, filenames, names, list: Vec::new() }
+        Self {
+            document,
+            buffers,
+            assets,
+            filenames,
+            names,
+            list: Vec::new(),
+        }
     }
 
     /// The name of the texture that the textureInfo object `info` describes; `None` if its image is of no use.
     pub(super) fn texture(&mut self, info: &Element<'a>, role: Role) -> Checked<Option<String>> {
         let texture = self.document.item("textures", &info.required("index")?)?;
-        let Some(filename) = self.image(&texture)? else { return Ok(None) };
+        let Some(filename) = self.image(&texture)? else {
+            return Ok(None);
+        };
         let mut params = Params::new().string("filename", &filename);
         params = self.sampler(&texture, params)?;
         let (value, params) = match role {
             Role::Color(factor) => {
                 let params = params.string("encoding", "sRGB");
-                (TextureValue::Color, if factor == [1.0; 3] { params } else { params.rgb("rgb", single(factor)) })
+                (
+                    TextureValue::Color,
+                    if factor == [1.0; 3] {
+                        params
+                    } else {
+                        params.rgb("factor", single(factor))
+                    },
+                )
             }
             Role::Normal => (TextureValue::Color, params.string("encoding", "linear")),
             Role::Channel(channel, factor) => {
                 let params = params.string("encoding", "linear").string("channel", channel);
-                (TextureValue::Float, if factor == 1.0 { params } else { params.float("scale", factor as f32) })
+                (
+                    TextureValue::Float,
+                    if factor == 1.0 {
+                        params
+                    } else {
+                        params.float("scale", factor as f32)
+                    },
+                )
             }
         };
         let params = self.transform(info, params)?;
@@ -62,7 +90,11 @@ impl<'b, 'a> Textures<'b, 'a> {
         let count = self.list.len();
         let name = self.names.entry(key).or_insert_with(|| {
             let name = format!("texture:{count}");
-            self.list.push(TextureDesc { name: name.clone(), value, node });
+            self.list.push(TextureDesc {
+                name: name.clone(),
+                value,
+                node,
+            });
             name
         });
         Ok(Some(name.clone()))
@@ -71,9 +103,18 @@ impl<'b, 'a> Textures<'b, 'a> {
     /// The file name of a texture's image; embedded ones are registered under a name of their own.
     fn image(&mut self, texture: &Element<'a>) -> Checked<Option<String>> {
         let Some(source) = texture.get("source")? else {
-            let other: Vec<&str> = texture.get("extensions")?.iter().flat_map(Element::keys).collect();
-            let why = if other.is_empty() { "has no image".into() } else { format!("needs {}", other.join(", ")) };
-            self.document.warn(texture, format!("a texture {why}; its factor alone is used"));
+            let other: Vec<&str> = texture
+                .get("extensions")?
+                .iter()
+                .flat_map(Element::keys)
+                .collect();
+            let why = if other.is_empty() {
+                "has no image".into()
+            } else {
+                format!("needs {}", other.join(", "))
+            };
+            self.document
+                .warn(texture, format!("a texture {why}; its factor alone is used"));
             return Ok(None);
         };
         let index = source.index()?;
@@ -101,19 +142,29 @@ impl<'b, 'a> Textures<'b, 'a> {
     }
 
     fn sampler(&self, texture: &Element<'a>, params: Params) -> Checked<Params> {
-        let Some(sampler) = self.document.member(texture, "sampler", "samplers")? else { return Ok(params) };
+        let Some(sampler) = self.document.member(texture, "sampler", "samplers")? else {
+            return Ok(params);
+        };
         let wrap = |key| match sampler.index_or(key, 10497)? {
             10497 => Ok("repeat"),
             33071 => Ok("clamp"),
             33648 => Ok("mirror"),
-            other => Err(sampler.fault(format!("/{key}: expected 10497, 33071 or 33648, found {other}"))),
+            other => Err(sampler.fault_at(key, format!("expected 10497, 33071 or 33648, found {other}"))),
         };
         let (u, v) = (wrap("wrapS")?, wrap("wrapT")?);
-        let mut params = if u == "repeat" && v == "repeat" { params } else { params.string("wrap", u) };
+        let mut params = if u == "repeat" && v == "repeat" {
+            params
+        } else {
+            params.string("wrap", u)
+        };
         if u != v {
             params = params.string("wrapv", v);
         }
-        Ok(if sampler.index_or("magFilter", 9729)? == 9728 { params.string("filter", "point") } else { params })
+        Ok(if sampler.index_or("magFilter", 9729)? == 9728 {
+            params.string("filter", "point")
+        } else {
+            params
+        })
     }
 
     fn transform(&self, info: &Element<'a>, params: Params) -> Checked<Params> {
@@ -131,7 +182,10 @@ impl<'b, 'a> Textures<'b, 'a> {
             }
         }
         if set != 0 {
-            self.document.warn(info, format!("texture coordinates TEXCOORD_{set} are not read; TEXCOORD_0 is used"));
+            self.document.warn(
+                info,
+                format!("texture coordinates TEXCOORD_{set} are not read; TEXCOORD_0 is used"),
+            );
         }
         Ok(params)
     }
@@ -144,16 +198,22 @@ impl<'b, 'a> Textures<'b, 'a> {
 /// text ("counter-clockwise"), the Khronos viewer and the markers of TextureTransformTest agree on this one.
 /// Put v = 1 - w and w' = 1 - v'.
 fn uv_matrix([tx, ty]: [f64; 2], rotation: f64, [sx, sy]: [f64; 2]) -> [f64; 6] {
-    let (s, c) = libm_sin_cos(rotation);
+    let (s, c) = sin_cos(rotation);
     [c * sx, -s * sy, s * sy + tx, s * sx, c * sy, 1.0 - c * sy - ty]
 }
 
-/// `f64::sin_cos` differs between systems by an ulp, which vanishes when rounded to `f32`, or nearly so; the exact
-/// zeros and ones of quarter turns do matter for point-sampled textures.
-fn libm_sin_cos(angle: f64) -> (f64, f64) {
-    let (s, c) = angle.sin_cos();
-    let snap = |v: f64| if (v - v.round()).abs() < 1e-9 { v.round() } else { v };
-    (snap(s), snap(c))
+/// Sine and cosine with the same bits on every system; quarter turns give exact zeros and ones, which point-sampled
+/// textures need.
+fn sin_cos(angle: f64) -> (f64, f64) {
+    let snap = |v: f32| {
+        if (v - v.round()).abs() < 2e-7 {
+            v.round()
+        } else {
+            v
+        }
+    };
+    let angle = angle as f32;
+    (snap(float::sin(angle)).into(), snap(float::cos(angle)).into())
 }
 
 fn single(v: [f64; 3]) -> [f32; 3] {
@@ -182,7 +242,11 @@ mod tests {
 
     #[test]
     fn offsets_move_as_in_gltf() {
-        assert!(near(sampled([0.25, 0.125], uv_matrix([0.5, 0.25], 0.0, [1.0; 2])), [0.75, 0.375], 1e-12));
+        assert!(near(
+            sampled([0.25, 0.125], uv_matrix([0.5, 0.25], 0.0, [1.0; 2])),
+            [0.75, 0.375],
+            1e-12
+        ));
     }
 
     /// The quads of Khronos' TextureTransformTest show an arrow whose tip lies at (0.7778, 0.7778) of its image; green
@@ -190,7 +254,7 @@ mod tests {
     #[test]
     fn the_arrows_of_the_texture_transform_test_hit_their_green_markers() {
         let tip = [0.7778, 0.7778];
-        let rotated = uv_matrix([0.0; 2], 0.392_699_081_698_724, [1.0; 2]);
+        let rotated = uv_matrix([0.0; 2], std::f64::consts::FRAC_PI_8, [1.0; 2]);
         assert!(near(sampled([0.420_952, 1.016_267], rotated), tip, 1e-4));
         let scaled = uv_matrix([0.0; 2], 0.0, [1.5; 2]);
         assert!(near(sampled([0.518_545, 0.518_545], scaled), tip, 1e-4));

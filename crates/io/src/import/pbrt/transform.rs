@@ -149,6 +149,7 @@ fn unit(v: DVec3) -> Option<DVec3> {
 }
 
 #[cfg(test)]
+#[expect(clippy::expect_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 

@@ -3,6 +3,7 @@
 /// Nodes per axis.
 pub(super) const SIZE: usize = 16;
 
+#[expect(clippy::approx_constant, reason = "0.7071 is a share of light here")]
 #[rustfmt::skip]
 pub(super) const TABLE: [[[f32; 2]; SIZE]; SIZE] = [
     [

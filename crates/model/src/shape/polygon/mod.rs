@@ -48,7 +48,10 @@ impl Polygon {
             return Err(format!("vertex {i} is not finite"));
         }
         if let Some(i) = loops.iter().position(|l| l.len() < 3) {
-            return Err(format!("loop {i} has {} vertices, expected 3 or more", loops[i].len()));
+            return Err(format!(
+                "loop {i} has {} vertices, expected 3 or more",
+                loops[i].len()
+            ));
         }
         let largest = points().fold(0.0f32, |m, p| m.max((*p - Point3::ZERO).abs().max_component()));
         let carrier = newell(loops.first().map_or(&[], Vec::as_slice), largest.into())?;
@@ -63,7 +66,8 @@ impl Polygon {
             }
         }
         let flat: Vec<[f64; 2]> = points().map(|p| carrier.coordinates(p.to_f64())).collect();
-        let extreme = |axis: usize, pick: fn(f64, f64) -> f64| flat.iter().map(|c| c[axis]).reduce(pick).unwrap_or(0.0);
+        let extreme =
+            |axis: usize, pick: fn(f64, f64) -> f64| flat.iter().map(|c| c[axis]).reduce(pick).unwrap_or(0.0);
         let corner = [extreme(0, f64::min), extreme(1, f64::min)];
         let size = [extreme(0, f64::max) - corner[0], extreme(1, f64::max) - corner[1]];
         // Hits lie on the plane, from which vertices may stray by rounding.
@@ -71,12 +75,24 @@ impl Polygon {
             let on_plane = p.to_f64() - carrier.n * carrier.height(p.to_f64());
             [p, Point3::from_f64(on_plane)]
         }));
-        let loops = loops.iter().map(|l| l.iter().map(|p| p.to_f64()).collect()).collect();
-        Ok(Self { carrier, loops, fill_rule, bounds, corner, size })
+        let loops = loops
+            .iter()
+            .map(|l| l.iter().map(|p| p.to_f64()).collect())
+            .collect();
+        Ok(Self {
+            carrier,
+            loops,
+            fill_rule,
+            bounds,
+            corner,
+            size,
+        })
     }
 
     fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
-        self.loops.iter().flat_map(|l| (0..l.len()).map(move |i| [l[i], l[(i + 1) % l.len()]]))
+        self.loops
+            .iter()
+            .flat_map(|l| (0..l.len()).map(move |i| [l[i], l[(i + 1) % l.len()]]))
     }
 
     /// Whether the line of `ray` passes through the polygon as seen along it.
@@ -97,13 +113,21 @@ impl Polygon {
 /// The plane of one loop; `largest` is the largest coordinate in magnitude.
 fn newell(outline: &[Point3], largest: f64) -> Result<Carrier, String> {
     let points: Vec<DVec3> = outline.iter().map(|p| p.to_f64()).collect();
-    let Some(first) = points.first().copied() else { return Err("there are no vertices".to_owned()) };
-    let twice_area: DVec3 = points.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum();
+    let Some(first) = points.first().copied() else {
+        return Err("there are no vertices".to_owned());
+    };
+    let twice_area: DVec3 = points
+        .windows(2)
+        .map(|w| (w[0] - first).cross(w[1] - first))
+        .sum();
     let extent = points.iter().map(|p| (*p - first).length()).fold(0.0, f64::max);
     // Rounding vertices to f32 alone can make this much area.
     let noise = 4.0 * f64::from(f32::EPSILON) * extent * largest;
     if twice_area.length() <= noise {
-        return Err("the first loop encloses no area: its vertices lie on one line, or its windings cancel".to_owned());
+        return Err(
+            "the first loop encloses no area: its vertices lie on one line, or its windings cancel"
+                .to_owned(),
+        );
     }
     let mean = points.iter().map(|p| *p - first).sum::<DVec3>() / points.len() as f64;
     Ok(Carrier::new(first + mean, twice_area))
@@ -124,7 +148,10 @@ impl Shape for Polygon {
         self.carrier.surface(p, Point2::new(unit(0), unit(1)), self.size)
     }
     fn area(&self) -> f32 {
-        let flat = self.edges().map(|e| e.map(|p| self.carrier.coordinates(p))).collect();
+        let flat = self
+            .edges()
+            .map(|e| e.map(|p| self.carrier.coordinates(p)))
+            .collect();
         area::filled_area(flat, self.fill_rule) as f32
     }
 }
@@ -137,8 +164,13 @@ impl Kind for Polygon {
         doc: "A planar polygon of one or more closed loops: concave, self-intersecting or with holes. The outside is \
               where the first loop is seen counter-clockwise.",
         params: &[
-            ParamSpec::new("P", ParamType::Point3s, ParamDefault::Required, "Vertices of all loops, one after another.")
-                .unit("m"),
+            ParamSpec::new(
+                "P",
+                ParamType::Point3s,
+                ParamDefault::Required,
+                "Vertices of all loops, one after another.",
+            )
+            .unit("m"),
             ParamSpec::new(
                 "counts",
                 ParamType::Ints,
@@ -166,7 +198,13 @@ impl Kind for Polygon {
         };
         let total = counts.iter().fold(0usize, |sum, n| sum.saturating_add(*n));
         if total != points.len() {
-            args.error("counts", format!("\"counts\" adds up to {total}, but \"P\" has {} vertices", points.len()));
+            args.error(
+                "counts",
+                format!(
+                    "\"counts\" adds up to {total}, but \"P\" has {} vertices",
+                    points.len()
+                ),
+            );
             return None;
         }
         let mut rest = points.as_slice();
@@ -178,7 +216,11 @@ impl Kind for Polygon {
                 these.to_vec()
             })
             .collect();
-        let fill_rule = if args.text("fillrule") == "nonzero" { FillRule::NonZero } else { FillRule::EvenOdd };
+        let fill_rule = if args.text("fillrule") == "nonzero" {
+            FillRule::NonZero
+        } else {
+            FillRule::EvenOdd
+        };
         match Self::new(&loops, fill_rule) {
             Ok(polygon) => Some(Geometry::Shape(Box::new(polygon))),
             Err(message) => {

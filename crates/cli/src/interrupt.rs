@@ -1,0 +1,35 @@
+//! Ctrl-C: the first ends the render and keeps the picture so far, the second ends everything at once.
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use crate::exit::{Exit, tell};
+
+/// A promise to notice Ctrl-C.
+pub(crate) struct Interrupt {
+    cancel: Arc<AtomicBool>,
+    rendering: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Starts to listen. Before [`Interrupt::rendering`] there is no picture to keep: Ctrl-C ends the program.
+    pub(crate) fn listen() -> anyhow::Result<Self> {
+        let this = Self { cancel: Arc::default(), rendering: Arc::default() };
+        let (cancel, rendering) = (Arc::clone(&this.cancel), Arc::clone(&this.rendering));
+        ctrlc::try_set_handler(move || {
+            let second = cancel.swap(true, Ordering::Relaxed);
+            if second || !rendering.load(Ordering::Relaxed) {
+                std::process::exit(Exit::Interrupted as i32);
+            }
+            tell("\ninterrupted: writing the picture so far (Ctrl-C again to leave at once)");
+        })?;
+        Ok(this)
+    }
+
+    /// From now on there is a picture. The flag to watch.
+    pub(crate) fn rendering(&self) -> &AtomicBool {
+        self.rendering.store(true, Ordering::Relaxed);
+        &self.cancel
+    }
+}

@@ -1,0 +1,241 @@
+//! Options that several commands share, what they mean to the library, and how to say them again.
+use std::str::FromStr;
+
+use clap::{
+    Args,
+    builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
+};
+use durer::{
+    Options, Show, accel::Engine, film::Tile, integrator::INTEGRATORS, math::Interval, scene::Missing,
+};
+
+/// Words of `--accel`, with the engine each names.
+const ENGINES: [(&str, Engine); 2] = [("bvh", Engine::Bvh), ("none", Engine::BruteForce)];
+
+/// Which scene, from which camera, when.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Scene")]
+pub(crate) struct SceneOptions {
+    /// A scene file, or the name of a built-in scene (see `durer scenes`).
+    #[arg(default_value = "whitted", help_heading = "Arguments")]
+    pub(crate) scene: String,
+    /// Camera, by name or index [default: the first, or one that frames everything].
+    #[arg(long, value_name = "NAME_OR_INDEX")]
+    camera: Option<String>,
+    /// The moment of the picture [default: 0].
+    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    time_at: Option<f32>,
+    /// Shutter opening and closing, in seconds after --time-at [default: an instant].
+    #[arg(long, value_name = "OPEN,CLOSE", value_parser = shutter, allow_hyphen_values = true)]
+    shutter: Option<Interval>,
+    /// Missing images become visible placeholders with a warning instead of an error.
+    #[arg(long)]
+    lenient: bool,
+}
+
+/// Size of the picture and samples of its pixels.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Film")]
+pub(crate) struct FilmOptions {
+    /// Pixels per row; alone it keeps the scene's aspect ratio [default: the scene's, else 1280].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    width: Option<u32>,
+    /// Rows [default: the scene's, else 720].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    height: Option<u32>,
+    /// Factor on width and height.
+    #[arg(long, value_name = "F", value_parser = positive)]
+    scale: Option<f32>,
+    /// Samples per pixel [default: the scene's, else 64; data pictures 1].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// The part to render, in pixels from the upper left corner; the rest stays black.
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop)]
+    crop: Option<Tile>,
+    /// Changes every random number [default: 0].
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+}
+
+/// How light is followed.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Light transport")]
+pub(crate) struct TransportOptions {
+    /// The light transport [default: the scene's, else whitted].
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(integrators()))]
+    integrator: Option<String>,
+    /// What `--integrator cast` shows of the nearest hit [default: shading].
+    #[arg(long, value_name = "WHAT", value_parser = show())]
+    show: Option<Show>,
+    /// Bounces traced at most; 0 stops after the eye rays [default: the scene's, else 10].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1000))]
+    max_depth: Option<u32>,
+    /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].
+    #[arg(long, value_name = "F", value_parser = fraction)]
+    min_contribution: Option<f32>,
+    /// How hits are found: a hierarchy of boxes, or every primitive with every ray.
+    #[arg(long, value_name = "HOW", default_value = "bvh", hide_default_value = true, value_parser = engine())]
+    accel: Engine,
+}
+
+/// How much is said on stderr.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct TalkOptions {
+    /// Say nothing but errors.
+    #[arg(long, short, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Say notes too.
+    #[arg(long, short)]
+    pub(crate) verbose: bool,
+}
+
+/// All that decides the value of a pixel sample.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct SampleOptions {
+    #[command(flatten)]
+    pub(crate) scene: SceneOptions,
+    #[command(flatten)]
+    pub(crate) film: FilmOptions,
+    #[command(flatten)]
+    pub(crate) transport: TransportOptions,
+}
+
+impl SceneOptions {
+    /// The wishes in the library's terms.
+    pub(crate) fn wishes(&self) -> Options {
+        Options {
+            camera: self.camera.clone(),
+            time: self.time_at.unwrap_or(0.0),
+            shutter: self.shutter,
+            missing: if self.lenient { Missing::Warn } else { Missing::Refuse },
+            ..Options::default()
+        }
+    }
+}
+
+impl SampleOptions {
+    /// The wishes in the library's terms.
+    pub(crate) fn wishes(&self) -> Options {
+        let FilmOptions { width, height, scale, spp, crop, seed } = self.film;
+        let TransportOptions { integrator, show, max_depth, min_contribution, accel } = self.transport.clone();
+        Options {
+            integrator,
+            show,
+            width,
+            height,
+            scale,
+            samples: spp,
+            max_depth,
+            min_contribution,
+            crop,
+            engine: accel,
+            seed: seed.unwrap_or(0),
+            ..self.scene.wishes()
+        }
+    }
+
+    /// The words after `durer trace` that replay a sample of a render with these options. Names every field, so that a
+    /// new option cannot be forgotten here.
+    pub(crate) fn replay(&self, pixel: [u32; 2], sample: u32) -> String {
+        let SceneOptions { scene, camera, time_at, shutter, lenient } = &self.scene;
+        // A crop changes no sample.
+        let FilmOptions { width, height, scale, spp, crop: _, seed } = &self.film;
+        let TransportOptions { integrator, show, max_depth, min_contribution, accel } = &self.transport;
+        let mut words = vec![quoted(scene), format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
+        let mut say = |name: &str, value: Option<String>| {
+            words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
+        };
+        say("camera", camera.clone());
+        say("time-at", time_at.map(|v| v.to_string()));
+        say("shutter", shutter.map(|s| format!("{},{}", s.min, s.max)));
+        say("width", width.map(|v| v.to_string()));
+        say("height", height.map(|v| v.to_string()));
+        say("scale", scale.map(|v| v.to_string()));
+        say("spp", spp.map(|v| v.to_string()));
+        say("seed", seed.map(|v| v.to_string()));
+        say("integrator", integrator.clone());
+        say("show", show.map(|v| v.word().to_owned()));
+        say("max-depth", max_depth.map(|v| v.to_string()));
+        say("min-contribution", min_contribution.map(|v| v.to_string()));
+        let other_engine = ENGINES.iter().find(|(_, e)| e == accel && *accel != Engine::default());
+        say("accel", other_engine.map(|(word, _)| (*word).to_owned()));
+        if *lenient {
+            words.push("--lenient".to_owned());
+        }
+        words.join(" ")
+    }
+}
+
+/// As a shell takes it for one word.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+fn integrators() -> Vec<PossibleValue> {
+    INTEGRATORS.iter().map(|e| PossibleValue::new(e.schema.name).help(e.schema.doc)).collect()
+}
+
+fn show() -> impl TypedValueParser<Value = Show> {
+    PossibleValuesParser::new(Show::WORDS).try_map(|word| Show::from_word(&word).ok_or("unknown"))
+}
+
+fn engine() -> impl TypedValueParser<Value = Engine> {
+    let words = ENGINES.map(|(word, _)| word);
+    PossibleValuesParser::new(words)
+        .try_map(|word| ENGINES.iter().find(|(w, _)| *w == word).map(|(_, engine)| *engine).ok_or("unknown"))
+}
+
+/// Numbers with commas between.
+pub(crate) fn numbers<T: FromStr, const N: usize>(text: &str, form: &str) -> Result<[T; N], String> {
+    let list: Option<Vec<T>> = text.split(',').map(|v| v.trim().parse().ok()).collect();
+    list.and_then(|l| l.try_into().ok()).ok_or_else(|| format!("expected {form}"))
+}
+
+fn crop(text: &str) -> Result<Tile, String> {
+    let [x0, y0, x1, y1] = numbers(text, "X0,Y0,X1,Y1: four whole numbers of pixels")?;
+    if x0 >= x1 || y0 >= y1 {
+        return Err("holds no pixel: X0 must be less than X1, and Y0 less than Y1".to_owned());
+    }
+    Ok(Tile { x0, y0, x1, y1 })
+}
+
+fn shutter(text: &str) -> Result<Interval, String> {
+    let [open, close]: [f32; 2] = numbers(text, "OPEN,CLOSE: two numbers of seconds")?;
+    if !open.is_finite() || !close.is_finite() || open > close {
+        return Err("must open before it closes".to_owned());
+    }
+    Ok(Interval::new(open, close))
+}
+
+/// A number that is neither infinite nor NaN.
+pub(crate) fn finite(text: &str) -> Result<f32, String> {
+    text.parse().ok().filter(|v: &f32| v.is_finite()).ok_or_else(|| "expected a number".to_owned())
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn fraction(text: &str) -> Result<f32, String> {
+    let inside = finite(text).ok().filter(|v| (0.0..=1.0).contains(v));
+    inside.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_need_the_right_length() {
+        assert_eq!(numbers::<u32, 2>("3, 4", ""), Ok([3, 4]));
+        assert!(numbers::<u32, 2>("3", "").is_err() && numbers::<u32, 2>("3,4,5", "").is_err());
+        assert!(crop("4,0,4,9").is_err() && shutter("1,0").is_err() && shutter("nan,1").is_err());
+    }
+
+    #[test]
+    fn odd_words_are_quoted() {
+        assert_eq!(quoted("a/b-c.glb"), "a/b-c.glb");
+        assert_eq!(quoted("my scene's"), r"'my scene'\''s'");
+    }
+}

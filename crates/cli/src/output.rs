@@ -1,0 +1,56 @@
+//! Where pictures go: checked before the work, so that no night's render ends in a typing error.
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use anyhow::{Context, bail};
+use durer::image::{PictureFormat, writer_for};
+
+use crate::exit::WrongUsage;
+
+/// A file that can be written.
+#[derive(Clone, Debug)]
+pub(crate) struct Destination {
+    pub(crate) path: PathBuf,
+    pub(crate) format: PictureFormat,
+}
+
+/// The destinations asked for, or `SCENE-STEM.png` in the current folder.
+pub(crate) fn destinations(asked: &[PathBuf], scene: &str) -> anyhow::Result<Vec<Destination>> {
+    let default = [default_path(scene)];
+    let paths = if asked.is_empty() { &default } else { asked };
+    paths.iter().map(|path| destination(path)).collect()
+}
+
+fn default_path(scene: &str) -> PathBuf {
+    let mut name = Path::new(scene).file_stem().unwrap_or("picture".as_ref()).to_owned();
+    name.push(".png");
+    name.into()
+}
+
+fn destination(path: &Path) -> anyhow::Result<Destination> {
+    let writer = writer_for(path).map_err(|e| WrongUsage(e.to_string()))?;
+    check_writable(path)?;
+    Ok(Destination { path: path.to_owned(), format: writer.format })
+}
+
+/// Complains unless a file of this name can be made. Pictures are written under another name first and renamed, so the
+/// folder is what must be writable.
+pub(crate) fn check_writable(path: &Path) -> anyhow::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        bail!("{}: there is no folder {}", path.display(), folder.display());
+    }
+    if path.is_dir() {
+        bail!("{}: is a folder", path.display());
+    }
+    let probe = folder.join(format!(".durer-{}.probe", std::process::id()));
+    let made = fs::File::create(&probe).with_context(|| format!("{}: cannot be written", path.display()));
+    // A leftover of no bytes is the lesser evil.
+    let _ = fs::remove_file(&probe);
+    made.map(drop)
+}

@@ -1,0 +1,245 @@
+//! Good texts: the scene they describe, against matrices worked out by hand.
+use durer_core::glam::{DAffine3, DMat3, DVec3};
+use durer_scene::{Data, Location, ShapeDesc, ShapeSource, TextureValue, ValueType};
+
+use super::read::{complaints, read, sound};
+
+fn is(m: DAffine3, columns: [[f64; 3]; 4]) {
+    let [x, y, z, t] = columns.map(DVec3::from);
+    let expected = DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: t };
+    assert!(m.abs_diff_eq(expected, 1e-12), "{m:?} is not {expected:?}");
+}
+
+fn placed(shape: &ShapeDesc) -> DAffine3 {
+    shape.world_from_object.at(0.0)
+}
+
+fn kind(shape: &ShapeDesc) -> &str {
+    match &shape.source {
+        ShapeSource::Node(node) => &node.kind,
+        ShapeSource::Mesh(_) => panic!("no mesh was read"),
+    }
+}
+
+#[test]
+fn options_are_read() {
+    let desc = sound(
+        "LookAt 0 0 4  0 0 0  0 1 0\r\n\
+         Camera \"perspective\" \"float fov\" 39 \"string name\" \"front\"\r\n\
+         Film \"rgb\" \"integer yresolution\" [ 30 ] \"string filename\" \"out.exr\" \"float diagonal\" 20\r\n\
+         Sampler \"halton\" \"integer pixelsamples\" 7\r\n\
+         PixelFilter \"box\"\tIntegrator \"whitted\" \"integer maxdepth\" +3\r\nWorldBegin",
+    );
+    assert_eq!((desc.film.width, desc.film.height, desc.film.samples), (Some(1280), Some(30), Some(7)));
+    assert_eq!(desc.film.filename.as_deref(), Some("out.exr"));
+    assert_eq!(desc.filter.map(|n| n.kind).as_deref(), Some("box"));
+    assert_eq!(desc.sampler.map(|n| n.kind).as_deref(), Some("halton"));
+    let integrator = desc.integrator.expect("an integrator");
+    assert_eq!(integrator.params.get("maxdepth").map(|p| &p.data), Some(&Data::Ints(vec![3])));
+    let camera = &desc.cameras[0];
+    assert_eq!((camera.name.as_str(), camera.node.kind.as_str()), ("front", "perspective"));
+    assert!(camera.node.params.get("name").is_none() && camera.node.params.get("fov").is_some());
+    // From +z looking along -z with y up: x of the left-handed camera space is the world's -x.
+    is(camera.world_from_camera.at(0.0), [[-1., 0., 0.], [0., 1., 0.], [0., 0., -1.], [0., 0., 4.]]);
+}
+
+#[test]
+fn the_film_keeps_silent_where_the_file_does() {
+    let desc = sound("WorldBegin");
+    assert_eq!((desc.film.width, desc.film.height, desc.film.samples), (None, None, None));
+    let desc = sound("Film \"rgb\" Sampler \"stratified\" \"integer xsamples\" 3 WorldBegin");
+    assert_eq!((desc.film.width, desc.film.height, desc.film.samples), (Some(1280), Some(720), Some(12)));
+}
+
+#[test]
+fn transformations_multiply_from_the_right() {
+    let desc = sound(
+        "Scale -1 1 1 WorldBegin AttributeBegin Translate 1 2 3 Rotate 90 0 0 1 Scale 2 3 4 Shape \"a\" AttributeEnd\n\
+         Shape \"b\" AttributeBegin Transform [1 0 0 0  0 0 1 0  0 -1 0 0  5 6 7 1] Shape \"c\"\n\
+         ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 1 1 1 1] Shape \"d\" Identity Shape \"e\" AttributeEnd",
+    );
+    let shapes = &desc.shapes;
+    assert_eq!(shapes.iter().map(kind).collect::<Vec<_>>(), ["a", "b", "c", "d", "e"]);
+    // Rotation by 90 degrees about z sends x to y and y to -x.
+    is(placed(&shapes[0]), [[0., 2., 0.], [-3., 0., 0.], [0., 0., 4.], [1., 2., 3.]]);
+    // WorldBegin forgets the Scale.
+    assert_eq!(placed(&shapes[1]), DAffine3::IDENTITY);
+    is(placed(&shapes[2]), [[1., 0., 0.], [0., 0., 1.], [0., -1., 0.], [5., 6., 7.]]);
+    is(placed(&shapes[3]), [[1., 0., 0.], [0., 0., 1.], [0., -1., 0.], [6., 5., 8.]]);
+    assert_eq!(placed(&shapes[4]), DAffine3::IDENTITY);
+}
+
+#[test]
+fn coordinate_systems_are_remembered() {
+    let desc = sound(
+        "LookAt 1 2 -5 1 2 0 0 1 0 Camera \"perspective\" WorldBegin AttributeBegin CoordSysTransform \"camera\"\n\
+         LightSource \"point\" Translate 0 0 1 CoordinateSystem \"lamp\" AttributeEnd\n\
+         CoordSysTransform \"lamp\" Shape \"sphere\" CoordSysTransform \"world\" Shape \"sphere\"",
+    );
+    is(desc.lights[0].world_from_light.at(0.0), [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [1., 2., -5.]]);
+    assert_eq!(placed(&desc.shapes[0]).translation, DVec3::new(1.0, 2.0, -4.0));
+    assert_eq!(placed(&desc.shapes[1]), DAffine3::IDENTITY);
+}
+
+#[test]
+fn attribute_blocks_save_the_state() {
+    let desc = sound(
+        "WorldBegin Material \"mirror\" ReverseOrientation\n\
+         AttributeBegin ReverseOrientation Material \"dielectric\" \"float eta\" 1.3 Translate 1 0 0 Shape \"a\" AttributeEnd\n\
+         Shape \"b\" NamedMaterial \"late\" Shape \"c\"\nMakeNamedMaterial \"late\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 .5 0. ]\n\
+         Material \"\" Shape \"d\"",
+    );
+    let material = |i: usize| &desc.materials[desc.shapes[i].material.expect("a material").index()];
+    assert_eq!(material(0).node.kind, "dielectric");
+    assert_eq!((material(1).node.kind.as_str(), material(1).name.as_str()), ("mirror", ""));
+    assert_eq!((material(2).node.kind.as_str(), material(2).name.as_str()), ("diffuse", "late"));
+    assert!(material(2).node.params.get("type").is_none());
+    assert_eq!(material(3).node.kind, "interface");
+    assert_eq!([0, 1, 2].map(|i: usize| desc.shapes[i].reverse_orientation), [false, true, true]);
+    assert_eq!(placed(&desc.shapes[1]), DAffine3::IDENTITY);
+    assert_eq!(sound("WorldBegin Shape \"sphere\"").shapes[0].material, None);
+}
+
+#[test]
+fn transform_blocks_save_the_transformation_only() {
+    let imported =
+        read("WorldBegin TransformBegin Translate 1 0 0 Material \"mirror\" TransformEnd Shape \"s\"");
+    assert!(!imported.diagnostics.has_errors());
+    let shape = &imported.desc.shapes[0];
+    assert_eq!(placed(shape), DAffine3::IDENTITY);
+    assert!(shape.material.is_some());
+}
+
+#[test]
+fn parameters_keep_type_values_and_place() {
+    let text = "WorldBegin\nShape \"s\" \"string name\" \"my ball\" \"bool a\" true \"bool b\" [ \"false\" true ]\n\
+                \"point P\" [ 1 2. -.3e1 ] # c\n\"vector2 v\" [1 2] \"normal N\" [0 0 1]\n\
+                \"spectrum s\" \"metal-Ag-eta\" \"spectrum t\" [ 400 .5 ] \"blackbody k\" 5500 \"texture x\" \"wood\"\n\
+                \" string  file \" \"a\\\"b\" \"integer i\" []";
+    let imported = read(text);
+    assert_eq!(complaints(&imported), Vec::<String>::new());
+    let shape = &imported.desc.shapes[0];
+    assert_eq!(shape.name, "my ball");
+    let ShapeSource::Node(node) = &shape.source else { panic!("a node") };
+    let strings = |s: &str| Data::Strings(vec![s.to_owned()]);
+    let expected = [
+        ("a", ValueType::Bool, Data::Bools(vec![true]), "\"bool a\" true"),
+        ("b", ValueType::Bool, Data::Bools(vec![false, true]), "\"bool b\" [ \"false\" true ]"),
+        ("P", ValueType::Point3, Data::Floats(vec![1.0, 2.0, -3.0]), "\"point P\" [ 1 2. -.3e1 ]"),
+        ("v", ValueType::Vector2, Data::Floats(vec![1.0, 2.0]), "\"vector2 v\" [1 2]"),
+        ("N", ValueType::Normal, Data::Floats(vec![0.0, 0.0, 1.0]), "\"normal N\" [0 0 1]"),
+        ("s", ValueType::Spectrum, strings("metal-Ag-eta"), "\"spectrum s\" \"metal-Ag-eta\""),
+        ("t", ValueType::Spectrum, Data::Floats(vec![400.0, 0.5]), "\"spectrum t\" [ 400 .5 ]"),
+        ("k", ValueType::Blackbody, Data::Floats(vec![5500.0]), "\"blackbody k\" 5500"),
+        ("x", ValueType::Texture, strings("wood"), "\"texture x\" \"wood\""),
+        ("file", ValueType::String, strings("a\"b"), "\" string  file \" \"a\\\"b\""),
+        ("i", ValueType::Integer, Data::Ints(vec![]), "\"integer i\" []"),
+    ];
+    assert_eq!(node.params.iter().count(), expected.len());
+    for (param, (name, ty, data, written)) in node.params.iter().zip(expected) {
+        let Location::Span(at) = param.at else { panic!("a span") };
+        assert_eq!(&text[at.start as usize..at.end as usize], written);
+        assert_eq!((param.name.as_str(), param.ty, &param.data), (name, ty, &data));
+    }
+    let Location::Span(at) = node.at else { panic!("a span") };
+    assert_eq!(&text[at.start as usize..at.end as usize], "\"s\"");
+}
+
+#[test]
+fn textures_and_lights_are_kept() {
+    let imported = read(
+        "WorldBegin Texture \"t\" \"float\" \"constant\" \"float value\" 1 Texture \"t\" \"color\" \"imagemap\"\n\
+         LightSource \"point\" \"string name\" \"lamp\" \"rgb I\" [ 1 1 1 ]",
+    );
+    assert_eq!(
+        complaints(&imported),
+        ["1:71 warning: \"color\" is pbrt-v3's word; it is read as \"spectrum\" | \"color\""]
+    );
+    let desc = &imported.desc;
+    assert_eq!(
+        desc.textures.iter().map(|t| t.value).collect::<Vec<_>>(),
+        [TextureValue::Float, TextureValue::Color]
+    );
+    assert_eq!((desc.lights[0].name.as_str(), desc.lights[0].node.params.iter().count()), ("lamp", 1));
+}
+
+#[test]
+fn attribute_gives_parameters_unless_given() {
+    let desc = sound(
+        "WorldBegin AttributeBegin Attribute \"shape\" \"float radius\" 2 \"float zmin\" -1 Attribute \"shape\" \"float radius\" 3\n\
+         Shape \"a\" Shape \"b\" \"float radius\" 5 AttributeEnd Shape \"c\"",
+    );
+    let radius = |i: usize| match &desc.shapes[i].source {
+        ShapeSource::Node(node) => node.params.get("radius").map(|p| p.data.clone()),
+        ShapeSource::Mesh(_) => None,
+    };
+    assert_eq!(radius(0), Some(Data::Floats(vec![3.0])));
+    assert_eq!(radius(1), Some(Data::Floats(vec![5.0])));
+    assert_eq!(radius(2), None);
+}
+
+#[test]
+fn objects_are_placed_by_their_instances() {
+    let desc = sound(
+        "WorldBegin ObjectInstance \"late\" Material \"mirror\" ObjectBegin \"late\" Translate 0 1 0\n\
+         Shape \"a\" Shape \"b\" \"string name\" \"bee\" ObjectEnd\n\
+         AttributeBegin Scale 2 2 2 ObjectInstance \"late\" AttributeEnd Shape \"c\"",
+    );
+    assert_eq!(desc.shapes.iter().map(kind).collect::<Vec<_>>(), ["c", "a", "b", "a", "b"]);
+    assert_eq!(placed(&desc.shapes[0]), DAffine3::IDENTITY);
+    is(placed(&desc.shapes[2]), [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0., 1., 0.]]);
+    is(placed(&desc.shapes[3]), [[2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [0., 2., 0.]]);
+    assert_eq!(desc.shapes[4].name, "bee");
+    assert!(desc.shapes[4].material.is_some());
+}
+
+#[test]
+fn copies_are_limited() {
+    let numbers = "1 ".repeat(30_000);
+    let uses = "ObjectInstance \"o\"\n".repeat(10_000);
+    let text =
+        format!("WorldBegin\nObjectBegin \"o\" Shape \"s\" \"float x\" [ {numbers} ] ObjectEnd\n{uses}");
+    let found = complaints(&read(&text));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("more than 1 GiB"), "{found:?}");
+    let inherited = format!(
+        "WorldBegin\nAttribute \"shape\" \"float x\" [ {numbers} ]\n{}",
+        "Shape \"s\"\n".repeat(10_000)
+    );
+    let found = complaints(&read(&inherited));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("more than 1 GiB"), "{found:?}");
+}
+
+#[test]
+fn moving_things_get_two_keys() {
+    let desc = sound(
+        "TransformTimes 1 3 WorldBegin AttributeBegin ActiveTransform EndTime Translate 2 0 0 ActiveTransform All\n\
+         Scale 2 2 2 Shape \"a\" AttributeEnd Shape \"b\"\n\
+         ObjectBegin \"o\" Shape \"c\" ObjectEnd ActiveTransform StartTime Translate 0 4 0 ObjectInstance \"o\"",
+    );
+    let [a, b, c] = [0, 1, 2].map(|i: usize| &desc.shapes[i].world_from_object);
+    assert_eq!(a.keys().iter().map(|k| k.0).collect::<Vec<_>>(), [1.0, 3.0]);
+    is(a.at(1.0), [[2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [0., 0., 0.]]);
+    is(a.at(3.0), [[2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [2., 0., 0.]]);
+    assert_eq!(b.keys().len(), 1);
+    assert_eq!((c.at(1.0).translation, c.at(3.0).translation), (DVec3::new(0., 4., 0.), DVec3::ZERO));
+}
+
+#[test]
+fn cameras_of_different_names_are_kept() {
+    let imported = read(
+        "Camera \"perspective\"\nCamera \"orthographic\"\nCamera \"perspective\" \"string name\" \"side\"\nWorldBegin",
+    );
+    let cameras = &imported.desc.cameras;
+    assert_eq!(
+        cameras.iter().map(|c| c.node.kind.as_str()).collect::<Vec<_>>(),
+        ["orthographic", "perspective"]
+    );
+    assert_eq!(
+        complaints(&imported),
+        [
+            "2:8 warning: this Camera replaces the earlier one; several need a \"string name\" each | \"orthographic\""
+        ]
+    );
+}

@@ -1,0 +1,48 @@
+//! The constant `I_a` of the classic formula: light from nowhere that only the ambient term sees.
+use durer_core::{
+    math::{Normal3, Point2, Point3, Transform},
+    spectrum::{Basis, Color, Spectrum},
+};
+use durer_scene::{Args, Kind, ParamSpec, Schema};
+
+use super::{Light, LightSample};
+
+/// An ambient light.
+#[derive(Debug)]
+pub struct Ambient {
+    radiance: Color,
+}
+
+impl Kind for Ambient {
+    type Output = Box<dyn Light>;
+    const SCHEMA: Schema = Schema {
+        name: "ambient",
+        aliases: &[],
+        doc: "The classic ambient term: lights diffuse surfaces from all sides, is never seen or mirrored.",
+        params: &[
+            ParamSpec::color(
+                "L",
+                [0.1; 3],
+                "Radiance; a surface reflects its ambient coefficient times this.",
+            )
+            .unit("W/(m² sr)")
+            .range(0.0, f32::INFINITY),
+            ParamSpec::float("scale", 1.0, "Factor on the radiance.").range(0.0, f32::INFINITY),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        Some(Box::new(Self {
+            radiance: args.color("L") * args.float("scale"),
+        }))
+    }
+}
+
+impl Light for Ambient {
+    fn place(&mut self, _render_from_light: &Transform) {}
+    fn sample(&self, _basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+        None
+    }
+    fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {
+        basis.emission(self.radiance)
+    }
+}

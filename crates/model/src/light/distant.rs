@@ -1,0 +1,74 @@
+//! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. The sun.
+use durer_core::{
+    math::{Point2, Point3, Transform, Vector3},
+    spectrum::{Basis, Color},
+};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Light, LightSample, axis, scaled};
+
+/// A distant light.
+#[derive(Debug)]
+pub struct Distant {
+    /// Unit direction in which the light travels.
+    direction: Vector3,
+    irradiance: Color,
+}
+
+impl Kind for Distant {
+    type Output = Box<dyn Light>;
+    const SCHEMA: Schema = Schema {
+        name: "distant",
+        aliases: &["directional"],
+        doc: "Parallel light from infinitely far away, like the sun's.",
+        params: &[
+            ParamSpec::color("L", [1.0; 3], "Irradiance on a plane that faces the light.")
+                .unit("W/m²")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::float("scale", 1.0, "Factor on L.").range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "illuminance",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Luminance of that irradiance; replaces the magnitude of L, scale still applies.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "from",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0; 3]),
+                "Light travels from here",
+            )
+            .unit("m"),
+            ParamSpec::new(
+                "to",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0, 0.0, 1.0]),
+                "towards here.",
+            )
+            .unit("m"),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let irradiance = scaled(args, "L", "illuminance", 1.0);
+        let (from, to) = (args.triple("from").into(), args.triple("to").into());
+        Some(Box::new(Self {
+            direction: axis(args, from, to)?,
+            irradiance,
+        }))
+    }
+}
+
+impl Light for Distant {
+    fn place(&mut self, render_from_light: &Transform) {
+        self.direction = render_from_light.vector(self.direction).normalize();
+    }
+    fn sample(&self, basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+        let weight = basis.emission(self.irradiance);
+        (!weight.is_black()).then_some(LightSample {
+            wi: -self.direction,
+            point: None,
+            weight,
+        })
+    }
+}

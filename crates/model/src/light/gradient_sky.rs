@@ -1,0 +1,115 @@
+//! A sky that brightens or darkens from the horizon to the zenith, above a ground of one colour.
+//!
+//! With `s` the sine of the elevation, the radiance is `horizon + (zenith - horizon) w(s)`, `w = 1 - (1 - s)²`, above the
+//! horizon and `horizon + (ground - horizon) v(-s)`, `v = 1 - (1 - s)^8`, below: continuous, with a thin rim of haze under
+//! the horizon. The ambient term and glossy reflections weigh the three colours by blurred `w` and `v` (`sky_blur.rs`).
+use durer_core::{
+    math::{Normal3, Point2, Point3, Transform, Vector3, float::sqr},
+    spectrum::{Basis, Color, Spectrum},
+};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Light, LightSample, sky_blur::SkyBlur};
+
+/// A gradient sky.
+#[derive(Debug)]
+pub struct GradientSky {
+    zenith: Color,
+    horizon: Color,
+    ground: Color,
+    /// Unit direction of the zenith.
+    up: Vector3,
+    /// Blurred weight of the zenith, by the sine of the elevation.
+    zenith_weight: SkyBlur,
+    /// Blurred weight of the ground.
+    ground_weight: SkyBlur,
+}
+
+/// Share of the zenith's colour at sine `s` of the elevation.
+fn zenith_weight(s: f32) -> f32 {
+    1.0 - sqr(1.0 - s.clamp(0.0, 1.0))
+}
+
+/// Share of the ground's colour.
+fn ground_weight(s: f32) -> f32 {
+    1.0 - sqr(sqr(sqr(1.0 + s.clamp(-1.0, 0.0))))
+}
+
+impl Kind for GradientSky {
+    type Output = Box<dyn Light>;
+    const SCHEMA: Schema = Schema {
+        name: "gradientsky",
+        aliases: &[],
+        doc: "A sky with a smooth gradient from the horizon to the zenith, and a ground below.",
+        params: &[
+            ParamSpec::color("zenith", [0.25, 0.45, 0.8], "Radiance overhead.")
+                .unit("W/(m² sr)")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::color("horizon", [0.8, 0.87, 0.95], "Radiance at the horizon.")
+                .unit("W/(m² sr)")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::color("ground", [0.3, 0.27, 0.24], "Radiance from below.")
+                .unit("W/(m² sr)")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "up",
+                ParamType::Vector3,
+                ParamDefault::Triple([0.0, 1.0, 0.0]),
+                "Direction of the zenith.",
+            ),
+            ParamSpec::float("scale", 1.0, "Factor on the radiance.").range(0.0, f32::INFINITY),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let up = Vector3::from(args.triple("up"));
+        if up.length_squared() == 0.0 {
+            args.error("up", "the zenith needs a direction, \"up\" is zero");
+            return None;
+        }
+        let scale = args.float("scale");
+        Some(Box::new(Self {
+            zenith: args.color("zenith") * scale,
+            horizon: args.color("horizon") * scale,
+            ground: args.color("ground") * scale,
+            up: up.normalize(),
+            zenith_weight: SkyBlur::of(zenith_weight),
+            ground_weight: SkyBlur::of(ground_weight),
+        }))
+    }
+}
+
+impl GradientSky {
+    fn mixed(&self, basis: Basis, zenith: f32, ground: f32) -> Spectrum {
+        let horizon = (1.0 - zenith - ground).max(0.0);
+        basis.emission(self.zenith * zenith + self.horizon * horizon + self.ground * ground)
+    }
+}
+
+impl Light for GradientSky {
+    fn place(&mut self, render_from_light: &Transform) {
+        self.up = render_from_light.vector(self.up).normalize();
+    }
+    fn sample(&self, _basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+        None
+    }
+    fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
+        let s = n.dot(self.up);
+        self.mixed(
+            basis,
+            self.zenith_weight.ambient(s),
+            self.ground_weight.ambient(s),
+        )
+    }
+    fn glossy_ambient(&self, basis: Basis, d: Vector3, alpha: f32) -> Spectrum {
+        let s = d.dot(self.up);
+        self.mixed(
+            basis,
+            self.zenith_weight.glossy(s, alpha),
+            self.ground_weight.glossy(s, alpha),
+        )
+    }
+    fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
+        let s = d.dot(self.up);
+        self.mixed(basis, zenith_weight(s), ground_weight(s))
+    }
+}

@@ -1,0 +1,73 @@
+//! A light without extent that shines equally in all directions: irradiance `E = I cos / d²`, power `4 pi I`.
+use std::f32::consts::PI;
+
+use durer_core::{
+    math::{Point2, Point3, Transform},
+    spectrum::{Basis, Color},
+};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Light, LightSample, falloff::Falloff, scaled};
+
+/// A point light.
+#[derive(Debug)]
+pub struct Point {
+    position: Point3,
+    intensity: Color,
+    falloff: Falloff,
+}
+
+impl Kind for Point {
+    type Output = Box<dyn Light>;
+    const SCHEMA: Schema = Schema {
+        name: "point",
+        aliases: &[],
+        doc: "Shines equally in all directions from one point.",
+        params: &[
+            ParamSpec::color("I", [1.0; 3], "Intensity.")
+                .unit("W/sr")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "power",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Total power; replaces the magnitude of I, scale still applies.",
+            )
+            .unit("W")
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "from",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0; 3]),
+                "Position.",
+            )
+            .unit("m"),
+            Falloff::SPEC,
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let intensity = scaled(args, "I", "power", 4.0 * PI);
+        let position = args.triple("from").into();
+        Some(Box::new(Self {
+            position,
+            intensity,
+            falloff: Falloff::from_args(args),
+        }))
+    }
+}
+
+impl Light for Point {
+    fn place(&mut self, render_from_light: &Transform) {
+        self.position = render_from_light.point(self.position);
+    }
+    fn sample(&self, basis: Basis, p: Point3, _u: Point2) -> Option<LightSample> {
+        let (wi, irradiance) = self.falloff.towards(self.position, p)?;
+        let weight = basis.emission(self.intensity) * irradiance;
+        (!weight.is_black()).then_some(LightSample {
+            wi,
+            point: Some(self.position),
+            weight,
+        })
+    }
+}

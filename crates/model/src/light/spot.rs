@@ -1,0 +1,123 @@
+//! A cone of light from one point: intensity `I` inside the inner cone, fading to 0 at the outer one.
+//!
+//! pbrt-v4's falloff: `smoothstep` of the cosine to the axis, from `cos(coneangle)` (0) to
+//! `cos(coneangle - conedeltaangle)` (1). As the mean of smoothstep is 1/2, the power is
+//! `2 pi I ((1 - cos inner) + (cos inner - cos outer) / 2)`.
+use std::f32::consts::{PI, TAU};
+
+use durer_core::{
+    math::{Point2, Point3, Transform, Vector3, float::cos},
+    spectrum::{Basis, Color},
+};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Light, LightSample, axis, falloff::Falloff, scaled};
+
+/// A spot light.
+#[derive(Debug)]
+pub struct Spot {
+    position: Point3,
+    /// Unit direction of the cone's axis.
+    axis: Vector3,
+    cos_inner: f32,
+    cos_outer: f32,
+    intensity: Color,
+    falloff: Falloff,
+}
+
+impl Kind for Spot {
+    type Output = Box<dyn Light>;
+    const SCHEMA: Schema = Schema {
+        name: "spot",
+        aliases: &[],
+        doc: "A cone of light from one point.",
+        params: &[
+            ParamSpec::color("I", [1.0; 3], "Intensity on the axis.")
+                .unit("W/sr")
+                .range(0.0, f32::INFINITY),
+            ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "power",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Total power; replaces the magnitude of I, scale still applies.",
+            )
+            .unit("W")
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "from",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0; 3]),
+                "Position.",
+            )
+            .unit("m"),
+            ParamSpec::new(
+                "to",
+                ParamType::Point3,
+                ParamDefault::Triple([0.0, 0.0, 1.0]),
+                "A point on the axis.",
+            )
+            .unit("m"),
+            ParamSpec::float("coneangle", 30.0, "Angle between axis and outer cone.")
+                .unit("degrees")
+                .range(0.0, 180.0),
+            ParamSpec::float(
+                "conedeltaangle",
+                5.0,
+                "Width of the fading rim inside the outer cone.",
+            )
+            .unit("degrees")
+            .range(0.0, 180.0),
+            Falloff::SPEC,
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let outer = args.float("coneangle");
+        let inner = (outer - args.float("conedeltaangle")).max(0.0);
+        let radians = PI / 180.0;
+        let (cos_inner, cos_outer) = (cos(inner * radians), cos(outer * radians));
+        let reach = TAU * ((1.0 - cos_inner) + 0.5 * (cos_inner - cos_outer));
+        let intensity = scaled(args, "I", "power", reach.max(f32::MIN_POSITIVE));
+        let (from, to) = (args.triple("from").into(), args.triple("to").into());
+        let axis = axis(args, from, to)?;
+        let falloff = Falloff::from_args(args);
+        Some(Box::new(Self {
+            position: from,
+            axis,
+            cos_inner,
+            cos_outer,
+            intensity,
+            falloff,
+        }))
+    }
+}
+
+impl Spot {
+    /// Share of the intensity that leaves at this cosine to the axis.
+    fn share(&self, cos: f32) -> f32 {
+        if cos >= self.cos_inner {
+            1.0
+        } else if cos <= self.cos_outer {
+            0.0
+        } else {
+            let t = (cos - self.cos_outer) / (self.cos_inner - self.cos_outer);
+            t * t * (3.0 - 2.0 * t)
+        }
+    }
+}
+
+impl Light for Spot {
+    fn place(&mut self, render_from_light: &Transform) {
+        self.position = render_from_light.point(self.position);
+        self.axis = render_from_light.vector(self.axis).normalize();
+    }
+    fn sample(&self, basis: Basis, p: Point3, _u: Point2) -> Option<LightSample> {
+        let (wi, irradiance) = self.falloff.towards(self.position, p)?;
+        let weight = basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(self.axis)));
+        (!weight.is_black()).then_some(LightSample {
+            wi,
+            point: Some(self.position),
+            weight,
+        })
+    }
+}

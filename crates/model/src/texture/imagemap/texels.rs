@@ -1,0 +1,68 @@
+//! Decoded access to an image's texels.
+use std::sync::Arc;
+
+use durer_scene::{Image, ImageData};
+
+use super::srgb;
+
+/// An image with the meaning of its values.
+#[derive(Clone, Debug)]
+pub(super) struct Texels {
+    image: Arc<Image>,
+    /// Linear value of every byte, for images of 8 bits.
+    bytes: [f32; 256],
+    /// True if colours are stored sRGB-encoded.
+    encoded: bool,
+}
+
+impl Texels {
+    /// `encoded`: whether colours (never alpha) are sRGB-encoded.
+    pub(super) fn new(image: Arc<Image>, encoded: bool) -> Self {
+        let bytes = if encoded {
+            srgb::table()
+        } else {
+            std::array::from_fn(|byte| byte as f32 / 255.0)
+        };
+        Self {
+            image,
+            bytes,
+            encoded,
+        }
+    }
+    /// Texels per row.
+    pub(super) fn width(&self) -> u32 {
+        self.image.width
+    }
+    /// Rows.
+    pub(super) fn height(&self) -> u32 {
+        self.image.height
+    }
+    /// Linear RGBA of column `x` and row `y`, both inside; grey is spread over RGB, missing alpha is 1.
+    pub(super) fn rgba(&self, x: u32, y: u32) -> [f32; 4] {
+        let channels = self.image.channels as usize;
+        let first = (y as usize * self.image.width as usize + x as usize) * channels;
+        let color = |channel: usize| self.color(first + channel);
+        match channels {
+            1 => [color(0), color(0), color(0), 1.0],
+            2 => [color(0), color(0), color(0), self.stored(first + 1)],
+            3 => [color(0), color(1), color(2), 1.0],
+            _ => [color(0), color(1), color(2), self.stored(first + 3)],
+        }
+    }
+    /// A value as stored; integers are mapped to `[0, 1]`.
+    fn stored(&self, i: usize) -> f32 {
+        match &self.image.data {
+            ImageData::U8(v) => f32::from(v[i]) / 255.0,
+            ImageData::U16(v) => f32::from(v[i]) / 65_535.0,
+            ImageData::F32(v) => v[i],
+        }
+    }
+    /// A linear value.
+    fn color(&self, i: usize) -> f32 {
+        match &self.image.data {
+            ImageData::U8(v) => self.bytes[usize::from(v[i])],
+            _ if self.encoded => srgb::decode(self.stored(i)),
+            _ => self.stored(i),
+        }
+    }
+}
