@@ -7,12 +7,8 @@ const BALL: &str = "Film \"rgb\" \"integer xresolution\" 201 \"integer yresoluti
     WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [.2 .4 .6]\nShape \"sphere\"\n";
 
 fn cast(text: &str, show: Show) -> durer::Rendered {
-    let options = Options {
-        integrator: Some("cast".into()),
-        show: Some(show),
-        samples: Some(1),
-        ..Options::default()
-    };
+    let options =
+        Options { integrator: Some("cast".into()), show: Some(show), samples: Some(1), ..Options::default() };
     render(&scene(text, &options))
 }
 

@@ -14,7 +14,10 @@ fn whitted(options: &Options) -> durer::Prepared {
 fn the_number_of_threads_does_not_change_a_bit() {
     let one = bits(&render(&whitted(&Options { threads: Some(1), ..options() })));
     for threads in [2, 3, 16] {
-        assert!(one == bits(&render(&whitted(&Options { threads: Some(threads), ..options() }))), "{threads}");
+        assert!(
+            one == bits(&render(&whitted(&Options { threads: Some(threads), ..options() }))),
+            "{threads}"
+        );
     }
 }
 

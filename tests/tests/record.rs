@@ -38,7 +38,10 @@ fn folding_the_tree_gives_the_sample_bit_for_bit_and_contributions_sum_to_it() {
             deepest = deepest.max(node.depth);
         }
         for (s, v) in sum.iter().zip(rgb) {
-            assert!((s - f64::from(v)).abs() <= 1e-5 * f64::from(v).max(1.0), "pixel {pixel:?}: {sum:?} {rgb:?}");
+            assert!(
+                (s - f64::from(v)).abs() <= 1e-5 * f64::from(v).max(1.0),
+                "pixel {pixel:?}: {sum:?} {rgb:?}"
+            );
         }
     }
     assert!(deepest >= 5, "the hollow ball makes deep trees, not {deepest}");

@@ -3,7 +3,13 @@ use std::{fmt::Write, path::Path};
 
 use durer::{
     integrator::INTEGRATORS,
-    model::{camera::CAMERAS, light::LIGHTS, material::MATERIALS, shape::SHAPES, texture::{COLOR_TEXTURES, FLOAT_TEXTURES}},
+    model::{
+        camera::CAMERAS,
+        light::LIGHTS,
+        material::MATERIALS,
+        shape::SHAPES,
+        texture::{COLOR_TEXTURES, FLOAT_TEXTURES},
+    },
     scene::{Entry, ParamDefault, ParamSpec, ParamType, Schema},
 };
 
@@ -67,7 +73,8 @@ fn page() -> String {
             }
             out += "\n| parameter | type | default | range, unit | meaning |\n|---|---|---|---|---|\n";
             for p in schema.params {
-                let row = [format!("`{}`", p.name), type_text(p), default_text(p), range_text(p), p.doc.to_owned()];
+                let row =
+                    [format!("`{}`", p.name), type_text(p), default_text(p), range_text(p), p.doc.to_owned()];
                 let _ = writeln!(out, "| {} |", row.join(" | "));
             }
         }
@@ -88,14 +95,25 @@ fn the_reference_page_matches_the_registries() {
 
 #[test]
 fn no_two_kinds_of_a_family_answer_to_the_same_word() {
-    for family in [schemas(SHAPES), schemas(MATERIALS), schemas(COLOR_TEXTURES), schemas(FLOAT_TEXTURES), schemas(LIGHTS), schemas(CAMERAS)] {
+    for family in [
+        schemas(SHAPES),
+        schemas(MATERIALS),
+        schemas(COLOR_TEXTURES),
+        schemas(FLOAT_TEXTURES),
+        schemas(LIGHTS),
+        schemas(CAMERAS),
+    ] {
         let mut words: Vec<_> = family.iter().flat_map(|s| s.aliases.iter().chain([&s.name])).collect();
         let all = words.len();
         words.sort();
         words.dedup();
         assert_eq!(words.len(), all);
         for schema in family {
-            assert!(!schema.doc.is_empty() && schema.params.iter().all(|p| !p.doc.is_empty()), "{}", schema.name);
+            assert!(
+                !schema.doc.is_empty() && schema.params.iter().all(|p| !p.doc.is_empty()),
+                "{}",
+                schema.name
+            );
         }
     }
 }

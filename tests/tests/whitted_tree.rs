@@ -44,7 +44,10 @@ fn glass_plate_transmits_each_order_as_computed_by_hand_i10() {
         let world = half_sky(1.0) + PLATE;
         let plate = eye(&format!("\"integer maxdepth\" {depth} \"float mincontribution\" 0"), &world);
         let (_, radiance) = tree(&plate);
-        assert!((radiance - expected).abs() < 1e-5, "{double_bounces} double bounces: {radiance} != {expected}");
+        assert!(
+            (radiance - expected).abs() < 1e-5,
+            "{double_bounces} double bounces: {radiance} != {expected}"
+        );
     }
 }
 
@@ -57,7 +60,8 @@ fn glass_plate_reflects_the_rest_i10() {
 
 #[test]
 fn a_recursion_limit_cuts_the_plate_where_it_says() {
-    let (tree, radiance) = tree(&eye("\"integer maxdepth\" 1 \"float mincontribution\" 0", &(half_sky(1.0) + PLATE)));
+    let (tree, radiance) =
+        tree(&eye("\"integer maxdepth\" 1 \"float mincontribution\" 0", &(half_sky(1.0) + PLATE)));
     assert_eq!(radiance, 0.0, "the light needs two refractions");
     assert!(tree.nodes.iter().all(|n| n.depth <= 2));
     assert!(tree.nodes.iter().any(|n| n.stop == Some(StopReason::DepthLimit)));
@@ -72,7 +76,8 @@ fn facing_mirrors_stop_by_contribution_where_the_power_falls_below_the_cut_i16()
              Shape \"plane\" \"point3 point\" [0 0 1] \"vector3 normal\" [0 0 -1]\n\
              Shape \"plane\" \"point3 point\" [0 0 -1] \"vector3 normal\" [0 0 1]\n"
         );
-        let (tree, _) = tree(&eye(&format!("\"integer maxdepth\" 1000 \"float mincontribution\" {cut}"), &world));
+        let (tree, _) =
+            tree(&eye(&format!("\"integer maxdepth\" 1000 \"float mincontribution\" {cut}"), &world));
         let last = tree.nodes.last().expect("a tree");
         assert_eq!((last.depth, last.stop), (bounces, Some(StopReason::ContributionBelowCutoff)), "k = {k}");
         for node in &tree.nodes {
@@ -95,12 +100,17 @@ fn a_full_tree_has_two_to_the_depth_plus_one_less_one_rays_i17() {
         world += &format!("Shape \"sphere\" \"float radius\" {shell}\n");
     }
     for (depth, rays) in [(3, 15), (5, 63), (8, 511)] {
-        let (tree, _) = tree(&eye(&format!("\"integer maxdepth\" {depth} \"float mincontribution\" 0"), &world));
+        let (tree, _) =
+            tree(&eye(&format!("\"integer maxdepth\" {depth} \"float mincontribution\" 0"), &world));
         let bounces = traced(&tree, RayKind::Reflection) + traced(&tree, RayKind::Refraction);
         assert_eq!(1 + bounces, rays, "depth {depth}");
         let lit = tree.nodes.iter().filter(|n| n.hit.is_some_and(|h| !h.from_outside)).count();
         assert!(lit > 0);
-        assert_eq!(traced(&tree, RayKind::Shadow), lit, "one shadow ray per light on the viewer's side and hit");
+        assert_eq!(
+            traced(&tree, RayKind::Shadow),
+            lit,
+            "one shadow ray per light on the viewer's side and hit"
+        );
     }
 }
 
@@ -161,7 +171,8 @@ fn images(degrees: f64) -> usize {
         for x in (0..120).rev() {
             let (tree, _) = prepared.job().record([x, 0], 0);
             let ball = tree.nodes.iter().find(|n| {
-                n.hit.is_some_and(|h| prepared.scene.object(h.object).name == "ball") && n.kind != RayKind::Shadow
+                n.hit.is_some_and(|h| prepared.scene.object(h.object).name == "ball")
+                    && n.kind != RayKind::Shadow
             });
             let depth = ball.map(|n| n.depth);
             if depth.is_some_and(|d| d > 0) && depth != inside {
@@ -193,7 +204,7 @@ fn snells_window_ends_at_the_critical_angle_i3() {
         let (tree, _) = prepared.job().record([x, 0], 0);
         let d = tree.nodes[0].d.to_f64();
         let angle = d.y.acos().to_degrees();
-        if tree.nodes.iter().any(|n| n.kind == RayKind::Refraction) {
+        if traced(&tree, RayKind::Refraction) > 0 {
             inside = inside.max(angle);
         } else {
             outside = outside.min(angle);

@@ -37,8 +37,7 @@ fn bumpy_sphere() -> Triangles {
             mesh.positions.push(Point3::ZERO + n * (1.0 + 0.05 * bump));
             let k = i * (RINGS + 1) + j;
             if i < RINGS && j < RINGS {
-                mesh.indices
-                    .extend([[k, k + 1, k + RINGS + 2], [k, k + RINGS + 2, k + RINGS + 1]]);
+                mesh.indices.extend([[k, k + 1, k + RINGS + 2], [k, k + RINGS + 2, k + RINGS + 1]]);
             }
         }
     }
@@ -50,11 +49,7 @@ fn measure(name: &str, rays: &[Ray], mut trace: impl FnMut(&Ray) -> bool) {
     let hits = rays.iter().filter(|r| trace(r)).count();
     let seconds = start.elapsed().as_secs_f64();
     let (count, share) = (rays.len() as f64, hits as f64 / rays.len() as f64);
-    println!(
-        "{name:<10} {:6.2} Mrays/s, {:4.1} % hit",
-        count / seconds * 1e-6,
-        share * 100.0
-    );
+    println!("{name:<10} {:6.2} Mrays/s, {:4.1} % hit", count / seconds * 1e-6, share * 100.0);
 }
 
 fn main() {
@@ -62,46 +57,27 @@ fn main() {
     let mesh = bumpy_sphere();
     let start = Instant::now();
     let id = builder.triangles(mesh).expect("the mesh is finite");
-    builder
-        .instance(id, Placement::Identity)
-        .expect("the identity is invertible");
+    builder.instance(id, Placement::Identity).expect("the identity is invertible");
     let accel = builder.build();
-    println!(
-        "built in {:.2} s: {:?}",
-        start.elapsed().as_secs_f64(),
-        accel.stats()
-    );
+    println!("built in {:.2} s: {:?}", start.elapsed().as_secs_f64(), accel.stats());
 
     let closest = |accel: &Accel, ray: &Ray| accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ());
     let side = (RAYS as f32).sqrt() as u32;
     let primary: Vec<Ray> = (0..RAYS)
         .map(|i| {
             let at = |k: u32| (k as f32 + 0.5) / side as f32 - 0.5;
-            Ray::new(
-                Point3::new(0.0, 0.0, 3.0),
-                Vector3::new(at(i % side), at(i / side), -1.2).normalize(),
-            )
+            Ray::new(Point3::new(0.0, 0.0, 3.0), Vector3::new(at(i % side), at(i / side), -1.2).normalize())
         })
         .collect();
     let diffuse: Vec<Ray> = (0..RAYS)
         .map(|i| {
             let o = on_sphere(unit(i, 1), unit(i, 2)) * 0.94;
-            Ray::new(
-                Point3::ZERO + o,
-                (on_sphere(unit(i, 3), unit(i, 4)) - o).normalize(),
-            )
+            Ray::new(Point3::ZERO + o, (on_sphere(unit(i, 3), unit(i, 4)) - o).normalize())
         })
         .collect();
-    let occlusion: Vec<Ray> = diffuse
-        .iter()
-        .map(|r| Ray {
-            t_max: 0.1,
-            ..Ray::new(r.o, r.o - Point3::ZERO)
-        })
-        .collect();
+    let occlusion: Vec<Ray> =
+        diffuse.iter().map(|r| Ray { t_max: 0.1, ..Ray::new(r.o, r.o - Point3::ZERO) }).collect();
     measure("primary", &primary, |r| closest(&accel, r).is_some());
     measure("diffuse", &diffuse, |r| closest(&accel, r).is_some());
-    measure("occlusion", &occlusion, |r| {
-        accel.any(r, &NoUserGeometry, &mut NoTraversalProbe, ())
-    });
+    measure("occlusion", &occlusion, |r| accel.any(r, &NoUserGeometry, &mut NoTraversalProbe, ()));
 }

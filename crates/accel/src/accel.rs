@@ -56,17 +56,8 @@ impl Accel {
             geometry.tree.base = base;
             base += geometry.tree.len() as u32;
         }
-        let bounds = instances
-            .iter()
-            .fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
-        Self {
-            engine,
-            top,
-            order,
-            geometries,
-            instances,
-            bounds,
-        }
+        let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
+        Self { engine, top, order, geometries, instances, bounds }
     }
 
     /// The nearest hit of `ray` with `t` in `[t_min, t_max]`; on equal `t` the one with the smaller
@@ -80,11 +71,7 @@ impl Accel {
     ) -> Option<Hit> {
         let world = self.space(ray)?;
         let mut best = Hit::nothing(world.ray.t_max);
-        let mut level = TopLevel {
-            accel: self,
-            query: Query { user, probe, id },
-            world: &world,
-        };
+        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
         self.top.nearest(&world.slab, ray.t_min, &mut best, &mut level);
         best.found()
     }
@@ -100,28 +87,13 @@ impl Accel {
         let Some(world) = self.space(ray) else {
             return false;
         };
-        let mut level = TopLevel {
-            accel: self,
-            query: Query { user, probe, id },
-            world: &world,
-        };
-        self.top.blocks(
-            &world.slab,
-            Span {
-                t_min: ray.t_min,
-                t_max: ray.t_max,
-            },
-            &mut level,
-        )
+        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
+        self.top.blocks(&world.slab, Span { t_min: ray.t_min, t_max: ray.t_max }, &mut level)
     }
 
     fn space(&self, ray: &Ray) -> Option<Space> {
         // A finite end keeps infinity, which a shape's division by 0 may return, from counting as a hit.
-        let t_max = if ray.t_max == f32::INFINITY {
-            f32::MAX
-        } else {
-            ray.t_max
-        };
+        let t_max = if ray.t_max == f32::INFINITY { f32::MAX } else { ray.t_max };
         let valid = ray.t_min <= t_max;
         Space::new(&Ray { t_max, ..*ray }, &self.bounds).filter(|_| valid)
     }
@@ -169,11 +141,7 @@ impl Accel {
             (&self.geometries[i].tree, Some(GeometryId(i as u32)))
         };
         let node = tree.node(bvh_node - tree.base);
-        Some(NodeBounds {
-            bounds: node.bounds(),
-            geometry,
-            leaf_items: node.count,
-        })
+        Some(NodeBounds { bounds: node.bounds(), geometry, leaf_items: node.count })
     }
 
     /// Which geometry an instance places.
@@ -189,10 +157,7 @@ impl Accel {
     /// # Panics
     /// If there is no such instance.
     pub fn instance_transform(&self, instance: u32, time: f32) -> Transform {
-        self.instances[instance as usize]
-            .pose
-            .at(time)
-            .unwrap_or(Transform::IDENTITY)
+        self.instances[instance as usize].pose.at(time).unwrap_or(Transform::IDENTITY)
     }
 
     /// The vertices of a triangle in the instance's object space; `None` if the geometry is not a mesh.

@@ -71,10 +71,7 @@ pub enum BuildError {
 impl BuildError {
     /// `count` as an id.
     pub(crate) fn check_count(count: usize, what: &'static str) -> Result<u32, Self> {
-        u32::try_from(count)
-            .ok()
-            .filter(|n| *n <= u32::MAX / 2)
-            .ok_or(Self::TooMany { count, what })
+        u32::try_from(count).ok().filter(|n| *n <= u32::MAX / 2).ok_or(Self::TooMany { count, what })
     }
 }
 

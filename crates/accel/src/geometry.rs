@@ -38,10 +38,7 @@ pub(crate) struct LeafTriangle {
 impl LeafTriangle {
     pub(crate) fn bounds(&self) -> Bounds3 {
         let [a, b, c] = self.vertices;
-        Bounds3 {
-            min: a.min(b).min(c),
-            max: a.max(b).max(c),
-        }
+        Bounds3 { min: a.min(b).min(c), max: a.max(b).max(c) }
     }
 }
 
@@ -84,16 +81,9 @@ impl Geometry {
         let mut given = Vec::with_capacity(mesh.indices.len());
         for (prim, indices) in (0..count).zip(&mesh.indices) {
             if let Some(&vertex) = indices.iter().find(|&&i| i as usize >= vertices) {
-                return Err(BuildError::VertexOutOfRange {
-                    triangle: prim as usize,
-                    vertex,
-                    vertices,
-                });
+                return Err(BuildError::VertexOutOfRange { triangle: prim as usize, vertex, vertices });
             }
-            given.push(LeafTriangle {
-                vertices: indices.map(|i| mesh.positions[i as usize]),
-                prim,
-            });
+            given.push(LeafTriangle { vertices: indices.map(|i| mesh.positions[i as usize]), prim });
         }
         let (tree, order) = grow(given.iter().map(LeafTriangle::bounds), options);
         let leaves: Vec<_> = order.iter().map(|&i| given[i as usize]).collect();
@@ -102,12 +92,7 @@ impl Geometry {
         for (at, leaf) in (0..count).zip(&leaves) {
             place[leaf.prim as usize] = at;
         }
-        Ok(Self {
-            tree,
-            items: Items::Triangles { leaves, place },
-            finite: bounds,
-            bounds,
-        })
+        Ok(Self { tree, items: Items::Triangles { leaves, place }, finite: bounds, bounds })
     }
 
     pub(crate) fn boxes(given: &[Bounds3], options: &BuildOptions) -> Result<Self, BuildError> {
@@ -117,24 +102,10 @@ impl Geometry {
         }
         let (tree, order) = grow(given.iter().copied(), options);
         let around = |all: Bounds3, b: &Bounds3| all.union(*b);
-        let finite = given
-            .iter()
-            .filter(|b| b.is_finite())
-            .fold(Bounds3::EMPTY, around);
+        let finite = given.iter().filter(|b| b.is_finite()).fold(Bounds3::EMPTY, around);
         let bounds = given.iter().fold(Bounds3::EMPTY, around);
-        let leaves = order
-            .iter()
-            .map(|&prim| LeafBox {
-                bounds: given[prim as usize],
-                prim,
-            })
-            .collect();
-        Ok(Self {
-            tree,
-            items: Items::Boxes(leaves),
-            finite,
-            bounds,
-        })
+        let leaves = order.iter().map(|&prim| LeafBox { bounds: given[prim as usize], prim }).collect();
+        Ok(Self { tree, items: Items::Boxes(leaves), finite, bounds })
     }
 
     /// Heap memory held.

@@ -18,13 +18,7 @@ pub struct Hit {
 impl Hit {
     /// "Nothing yet": a hit at `t_max` with the largest ids, so that any real one wins the tie.
     pub(crate) fn nothing(t_max: f32) -> Self {
-        Self {
-            t: t_max,
-            instance: u32::MAX,
-            prim: u32::MAX,
-            u: 0.0,
-            v: 0.0,
-        }
+        Self { t: t_max, instance: u32::MAX, prim: u32::MAX, u: 0.0, v: 0.0 }
     }
     /// The hit, unless it is still `nothing`.
     pub(crate) fn found(self) -> Option<Self> {

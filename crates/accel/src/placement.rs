@@ -29,11 +29,7 @@ impl Placement {
         let keys = motion.keys();
         if motion.is_still() {
             let still = Transform::from_f64(&keys[0].1);
-            return if still == Transform::IDENTITY {
-                Self::Identity
-            } else {
-                Self::Still(still)
-            };
+            return if still == Transform::IDENTITY { Self::Identity } else { Self::Still(still) };
         }
         let mut refined: Vec<(f32, Transform)> = Vec::new();
         let mut push = |time: f64, m: &DAffine3| {
@@ -83,11 +79,7 @@ impl Pose {
     /// Checks `placement` for what will be instance number `instance`.
     pub(crate) fn new(placement: Placement, instance: usize) -> Result<Self, BuildError> {
         let invertible = |key: usize, m: &Transform| {
-            if m.is_invertible() {
-                Ok(())
-            } else {
-                Err(BuildError::TransformSingular { instance, key })
-            }
+            if m.is_invertible() { Ok(()) } else { Err(BuildError::TransformSingular { instance, key }) }
         };
         match placement {
             Placement::Identity => Ok(Self::Identity),
@@ -130,18 +122,14 @@ impl Pose {
         // A half-infinite box turned is no box, and one that overflows has lost its far side.
         let of = |m: &Transform| {
             let mapped = m.bounds(b);
-            if b.is_finite() && mapped.is_finite() {
-                mapped
-            } else {
-                Bounds3::UNBOUNDED
-            }
+            if b.is_finite() && mapped.is_finite() { mapped } else { Bounds3::UNBOUNDED }
         };
         match self {
             Self::Identity => *b,
             Self::Still(m) => of(m),
-            Self::Moving(keys) => keys
-                .iter()
-                .fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&k.1)))),
+            Self::Moving(keys) => {
+                keys.iter().fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&k.1))))
+            }
         }
     }
     /// Heap memory held.
@@ -189,9 +177,7 @@ mod tests {
         };
         assert_eq!(keyed(DAffine3::from_translation(DVec3::X)).len(), 2);
         assert_eq!(keyed(DAffine3::from_scale(DVec3::new(2.0, 3.0, 4.0))).len(), 2);
-        let quarter = keyed(DAffine3::from_quat(DQuat::from_rotation_z(
-            std::f64::consts::FRAC_PI_2,
-        )));
+        let quarter = keyed(DAffine3::from_quat(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2)));
         assert!((45..=47).contains(&quarter.len()), "{}", quarter.len());
     }
 
@@ -215,19 +201,10 @@ mod tests {
 
     #[test]
     fn stillness_and_identity_are_recognised() {
-        assert_eq!(
-            Placement::from_motion(&Motion::still(DAffine3::IDENTITY)),
-            Placement::Identity
-        );
+        assert_eq!(Placement::from_motion(&Motion::still(DAffine3::IDENTITY)), Placement::Identity);
         let shift = DAffine3::from_translation(DVec3::X);
-        assert!(matches!(
-            Placement::from_motion(&Motion::still(shift)),
-            Placement::Still(_)
-        ));
+        assert!(matches!(Placement::from_motion(&Motion::still(shift)), Placement::Still(_)));
         let close = Motion::keyed(vec![(1.0, DAffine3::IDENTITY), (1.0 + 1e-12, shift)]).expect("valid keys");
-        assert_eq!(
-            Placement::from_motion(&close),
-            Placement::Still(Transform::from_f64(&shift))
-        );
+        assert_eq!(Placement::from_motion(&close), Placement::Still(Transform::from_f64(&shift)));
     }
 }

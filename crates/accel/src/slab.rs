@@ -53,11 +53,7 @@ impl Slab {
         let pad = reach.map(|r| gamma(12) * (r + along));
         let o_lower = std::array::from_fn(|a| (ray.o[a] + pad[a]).next_up());
         let o_upper = std::array::from_fn(|a| (ray.o[a] - pad[a]).next_down());
-        Some(Self {
-            o_lower,
-            o_upper,
-            inverse,
-        })
+        Some(Self { o_lower, o_upper, inverse })
     }
 
     /// Where the ray enters and leaves a box; it misses if the first is greater.
@@ -114,26 +110,15 @@ mod tests {
         assert!(admits([-1.0, 0.0, 0.5], [1.0, 0.0, 0.0]), "in a face");
         assert!(admits([-1.0, 0.0, 1.0], [1.0, 0.0, -0.0]), "along an edge");
         assert!(admits([-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]), "through a corner");
-        assert!(
-            admits([1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-            "starting at a corner, leaving"
-        );
+        assert!(admits([1.0, 1.0, 1.0], [1.0, 1.0, 1.0]), "starting at a corner, leaving");
         assert!(!admits([-1.0, -1e-5, 0.5], [1.0, 0.0, 0.0]), "beside a face");
         assert!(!admits([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), "behind");
     }
 
     #[test]
     fn impossible_rays_are_refused() {
-        for d in [
-            [0.0; 3],
-            [f32::NAN, 0.0, 0.0],
-            [f32::INFINITY, 0.0, 0.0],
-            [1e-44, 0.0, 0.0],
-        ] {
-            assert!(
-                Slab::new(&Ray::new(Point3::ZERO, d.into()), &unit()).is_none(),
-                "{d:?}"
-            );
+        for d in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0], [1e-44, 0.0, 0.0]] {
+            assert!(Slab::new(&Ray::new(Point3::ZERO, d.into()), &unit()).is_none(), "{d:?}");
         }
         let far = Ray::new(Point3::splat(f32::INFINITY), Vector3::splat(1.0));
         assert!(Slab::new(&far, &unit()).is_none());

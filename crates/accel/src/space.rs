@@ -15,10 +15,6 @@ impl Space {
     /// For things inside `region`. `None` if the ray can hit nothing.
     pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
         let slab = Slab::new(ray, region)?;
-        Some(Self {
-            ray: *ray,
-            slab,
-            shear: Shear::new(ray)?,
-        })
+        Some(Self { ray: *ray, slab, shear: Shear::new(ray)? })
     }
 }

@@ -64,14 +64,7 @@ impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
         Some(visit(
             geometry,
             space,
-            &mut BottomLevel {
-                geometry,
-                query,
-                instance: index,
-                near,
-                space,
-                exhaustive,
-            },
+            &mut BottomLevel { geometry, query, instance: index, near, space, exhaustive },
         ))
     }
 }
@@ -137,17 +130,10 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
 
     #[inline]
     fn triangle(&mut self, leaf: &LeafTriangle, t_max: f32) -> Option<Hit> {
-        self.query
-            .probe
-            .primitive(self.query.id, self.instance, leaf.prim);
+        self.query.probe.primitive(self.query.id, self.instance, leaf.prim);
         let found = triangle::intersect(&self.space.shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
         let [_, u, v] = found.weights;
-        self.hit(
-            leaf.prim,
-            PrimitiveHit { t: found.t, u, v },
-            &leaf.bounds(),
-            t_max,
-        )
+        self.hit(leaf.prim, PrimitiveHit { t: found.t, u, v }, &leaf.bounds(), t_max)
     }
 
     fn user(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Hit> {
@@ -172,24 +158,13 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
         if !self.exhaustive && !window.admits(self.space.ray.t_min, t_max) {
             return None;
         }
-        self.query
-            .probe
-            .primitive(self.query.id, self.instance, leaf.prim);
-        Some(Ray {
-            t_max,
-            ..self.space.ray
-        })
+        self.query.probe.primitive(self.query.id, self.instance, leaf.prim);
+        Some(Ray { t_max, ..self.space.ray })
     }
 
     fn hit(&self, prim: u32, found: PrimitiveHit, bounds: &Bounds3, t_max: f32) -> Option<Hit> {
         let t = self.admit(found.t, self.space.slab.window_of(bounds), t_max)?;
-        Some(Hit {
-            t,
-            instance: self.instance,
-            prim,
-            u: found.u,
-            v: found.v,
-        })
+        Some(Hit { t, instance: self.instance, prim, u: found.u, v: found.v })
     }
 
     /// Whether `test` finds a hit on any item; brute force looks at all of them.
@@ -236,9 +211,9 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for BottomLevel<'_, '_, U, P> {
     fn blocks(&mut self, items: Range<usize>) -> bool {
         let t_max = self.space.ray.t_max;
         match &self.geometry.items {
-            Items::Triangles { leaves, .. } => self.some(&leaves[items], |level, leaf| {
-                level.triangle(leaf, t_max).is_some()
-            }),
+            Items::Triangles { leaves, .. } => {
+                self.some(&leaves[items], |level, leaf| level.triangle(leaf, t_max).is_some())
+            }
             Items::Boxes(leaves) => self.some(&leaves[items], Self::user_blocks),
         }
     }

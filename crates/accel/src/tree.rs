@@ -28,18 +28,10 @@ pub(crate) struct Node {
 
 impl Node {
     pub(crate) fn new(bounds: &Bounds3, link: u32, count: u32) -> Self {
-        Self {
-            min: bounds.min.to_array(),
-            link,
-            max: bounds.max.to_array(),
-            count,
-        }
+        Self { min: bounds.min.to_array(), link, max: bounds.max.to_array(), count }
     }
     pub(crate) fn bounds(&self) -> Bounds3 {
-        Bounds3 {
-            min: self.min.into(),
-            max: self.max.into(),
-        }
+        Bounds3 { min: self.min.into(), max: self.max.into() }
     }
     fn items(&self) -> Range<usize> {
         let first = self.link as usize;
@@ -88,22 +80,11 @@ impl Tree {
     /// All `total` items in a plain list.
     pub(crate) fn list(total: usize) -> Self {
         let root = Node::new(&Bounds3::EMPTY, 0, 0);
-        Self {
-            root,
-            pairs: Vec::new(),
-            bounded: 0,
-            total,
-            depth: 0,
-            base: 0,
-        }
+        Self { root, pairs: Vec::new(), bounded: 0, total, depth: 0, base: 0 }
     }
     /// Number of nodes.
     pub(crate) fn len(&self) -> usize {
-        if self.bounded == 0 {
-            0
-        } else {
-            1 + 2 * self.pairs.len()
-        }
+        if self.bounded == 0 { 0 } else { 1 + 2 * self.pairs.len() }
     }
     /// The node with this name, without `base`.
     pub(crate) fn node(&self, name: u32) -> &Node {
@@ -144,11 +125,7 @@ impl Tree {
                 match (wa.admits(t_min, best.t), wb.admits(t_min, best.t)) {
                     (true, true) => {
                         let swap = wb.near < wa.near;
-                        let far = if swap {
-                            (first, wa.near)
-                        } else {
-                            (first + 1, wb.near)
-                        };
+                        let far = if swap { (first, wa.near) } else { (first + 1, wb.near) };
                         stack[held] = far;
                         held += 1;
                         (name, node) = if swap { (first + 1, b) } else { (first, a) };
@@ -211,10 +188,7 @@ impl Tree {
                 }
             } else {
                 let (first, [a, b]) = (1 + 2 * node.link, &self.pairs[node.link as usize].0);
-                let (in_a, in_b) = (
-                    admits(slab.window(&a.min, &a.max)),
-                    admits(slab.window(&b.min, &b.max)),
-                );
+                let (in_a, in_b) = (admits(slab.window(&a.min, &a.max)), admits(slab.window(&b.min, &b.max)));
                 if in_a && in_b {
                     stack[held] = first + 1;
                     held += 1;

@@ -37,7 +37,7 @@ Exit status: 0 done; 1 failed (bad scene, unwritable file); 2 wrong usage; 130 i
 
 /// A ray tracer that lets you look inside.
 #[derive(Parser)]
-#[command(name = "durer", version, about, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(name = "durer", version, after_help = EXAMPLES, disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -10,7 +10,9 @@ pub(crate) fn significant(value: f32, digits: usize) -> String {
     let value = f64::from(value);
     let digits = digits.max(1);
     let scientific = format!("{value:.*e}", digits - 1);
-    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    let Some((mantissa, exponent)) = scientific.split_once('e') else {
+        return scientific;
+    };
     let exponent: i32 = exponent.parse().unwrap_or(0);
     if exponent < -4 || exponent >= digits as i32 {
         let sign = if exponent < 0 { '-' } else { '+' };
@@ -52,7 +54,10 @@ pub(crate) fn bytes(n: u64) -> String {
     }
     let power = (n.ilog2() / 10).min(UNITS.len() as u32);
     let unit = UNITS.get(power as usize - 1).copied().unwrap_or_default();
-    format!("{:.1} {unit}", n as f64 / f64::from(1u32 << (10 * power.min(3))) / if power > 3 { 1024.0 } else { 1.0 })
+    format!(
+        "{:.1} {unit}",
+        n as f64 / f64::from(1u32 << (10 * power.min(3))) / if power > 3 { 1024.0 } else { 1.0 }
+    )
 }
 
 /// Seconds, finer where they are few.
@@ -106,6 +111,9 @@ mod tests {
     #[test]
     fn counts_and_bytes_are_short() {
         assert_eq!([count(9999), count(12_345), count(41_200_000)], ["9999", "12.3 k", "41.20 M"]);
-        assert_eq!([bytes(1000), bytes(1536), bytes(3 << 30), bytes(5 << 40)], ["1000 B", "1.5 KiB", "3.0 GiB", "5.0 TiB"]);
+        assert_eq!(
+            [bytes(1000), bytes(1536), bytes(3 << 30), bytes(5 << 40)],
+            ["1000 B", "1.5 KiB", "3.0 GiB", "5.0 TiB"]
+        );
     }
 }

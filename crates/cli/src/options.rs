@@ -17,7 +17,7 @@ const ENGINES: [(&str, Engine); 2] = [("bvh", Engine::Bvh), ("none", Engine::Bru
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
     /// A scene file, or the name of a built-in scene (see `durer scenes`).
-    #[arg(default_value = "whitted", help_heading = "Arguments")]
+    #[arg(default_value = "whitted", help_heading = None)]
     pub(crate) scene: String,
     /// Camera, by name or index [default: the first, or one that frames everything].
     #[arg(long, value_name = "NAME_OR_INDEX")]
@@ -80,6 +80,7 @@ pub(crate) struct TransportOptions {
 
 /// How much is said on stderr.
 #[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Running")]
 pub(crate) struct TalkOptions {
     /// Say nothing but errors.
     #[arg(long, short, conflicts_with = "verbose")]
@@ -117,7 +118,8 @@ impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
         let FilmOptions { width, height, scale, spp, crop, seed } = self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, accel } = self.transport.clone();
+        let TransportOptions { integrator, show, max_depth, min_contribution, accel } =
+            self.transport.clone();
         Options {
             integrator,
             show,
@@ -169,7 +171,11 @@ impl SampleOptions {
 /// As a shell takes it for one word.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 fn integrators() -> Vec<PossibleValue> {

@@ -38,13 +38,20 @@ pub use prepare::{Prepared, prepare};
 
 use std::path::Path;
 
-use durer_scene::Limits;
+use durer_scene::{Limits, Location};
 
 /// Reads a scene: a file, or a built-in scene by name. A file of that name in the current folder is not mistaken for
 /// the built-in scene, as files have a suffix.
 pub fn open(scene: &str) -> Imported {
-    match builtin::find(scene) {
-        Some(builtin) => builtin.import(),
-        None => import::open(Path::new(scene), Limits::default()),
+    let path = Path::new(scene);
+    if let Some(builtin) = builtin::find(scene) {
+        builtin.import()
+    } else if path.extension().is_none() && !path.exists() {
+        let mut imported = Imported::new("".into(), Limits::default());
+        let names = builtin::SCENES.iter().map(|s| s.name);
+        imported.diagnostics.unknown(Location::None, "file or built-in scene", scene, names);
+        imported
+    } else {
+        import::open(path, Limits::default())
     }
 }

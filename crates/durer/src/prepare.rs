@@ -87,7 +87,8 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
             set("show", ValueType::String, Data::Strings(vec![show.word().to_owned()]));
         }
         if options.max_depth.is_some() || options.min_contribution.is_some() {
-            diagnostics.warning(Location::None, "cast follows no ray: depth and contribution limits change nothing");
+            diagnostics
+                .warning(Location::None, "cast follows no ray: depth and contribution limits change nothing");
         }
         return node;
     }
@@ -105,10 +106,7 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
 }
 
 fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Option<(u32, u32)> {
-    let scene = (
-        desc.film.width.unwrap_or(DEFAULT_SIZE.0),
-        desc.film.height.unwrap_or(DEFAULT_SIZE.1),
-    );
+    let scene = (desc.film.width.unwrap_or(DEFAULT_SIZE.0), desc.film.height.unwrap_or(DEFAULT_SIZE.1));
     let aspect = f64::from(scene.0) / f64::from(scene.1.max(1));
     let (width, height) = match (options.width, options.height) {
         (Some(w), Some(h)) => (w, h),
@@ -123,7 +121,9 @@ fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnosti
     let size = (scaled(width), scaled(height));
     if size.0 == 0 || size.1 == 0 || size.0 > LARGEST_EDGE || size.1 > LARGEST_EDGE {
         let message = format!("a picture of {} x {} pixels cannot be rendered", size.0, size.1);
-        diagnostics.error(Location::None, message).hint(format!("each edge may have 1 to {LARGEST_EDGE} pixels"));
+        diagnostics
+            .error(Location::None, message)
+            .hint(format!("each edge may have 1 to {LARGEST_EDGE} pixels"));
         return None;
     }
     Some(size)
@@ -135,7 +135,8 @@ fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mu
     match output {
         Output::Data(Show::Id) => {
             if asked.is_some_and(|n| n > 1) {
-                diagnostics.warning(Location::None, "object ids cannot be averaged: one sample per pixel is taken");
+                diagnostics
+                    .warning(Location::None, "object ids cannot be averaged: one sample per pixel is taken");
             }
             1
         }

@@ -24,17 +24,8 @@ pub struct FileAssets {
 impl FileAssets {
     /// Assets below `folder`; the empty path is the current folder.
     pub fn new(folder: PathBuf, limits: Limits) -> Self {
-        let folder = if folder.as_os_str().is_empty() {
-            PathBuf::from(".")
-        } else {
-            folder
-        };
-        Self {
-            folder,
-            limits,
-            embedded: BTreeMap::new(),
-            images: Mutex::new(HashMap::new()),
-        }
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        Self { folder, limits, embedded: BTreeMap::new(), images: Mutex::new(HashMap::new()) }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
     pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
@@ -62,18 +53,12 @@ impl FileAssets {
     /// # Errors
     /// If it does not, or is not there.
     pub fn resolve(&self, path: &str) -> Result<PathBuf, AssetError> {
-        let outside = || AssetError::Outside {
-            path: path.to_owned(),
-        };
+        let outside = || AssetError::Outside { path: path.to_owned() };
         let relative = relative_names(path).ok_or_else(outside)?;
         let canonical = |p: &Path| p.canonicalize().map_err(|e| io_error(path, &e));
         let file = canonical(&self.folder.join(relative))?;
         // Only the canonical paths tell whether a symbolic link leads out.
-        if file.starts_with(canonical(&self.folder)?) {
-            Ok(file)
-        } else {
-            Err(outside())
-        }
+        if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
     }
     fn cache(&self) -> MutexGuard<'_, HashMap<String, Arc<Image>>> {
         // The map is whole even if a thread died while it held the lock: entries are inserted in one step.
@@ -112,13 +97,8 @@ fn relative_names(path: &str) -> Option<PathBuf> {
 
 fn io_error(path: &str, error: &std::io::Error) -> AssetError {
     match error.kind() {
-        ErrorKind::NotFound => AssetError::Missing {
-            path: path.to_owned(),
-        },
-        _ => AssetError::Io {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        },
+        ErrorKind::NotFound => AssetError::Missing { path: path.to_owned() },
+        _ => AssetError::Io { path: path.to_owned(), reason: error.to_string() },
     }
 }
 
@@ -136,20 +116,14 @@ pub(crate) fn read_file(file: &Path, name: &str, limits: Limits) -> Result<Vec<u
     let metadata = handle.metadata().map_err(fail)?;
     if !metadata.is_file() {
         let reason = "not a file".to_owned();
-        return Err(AssetError::Io {
-            path: name.to_owned(),
-            reason,
-        });
+        return Err(AssetError::Io { path: name.to_owned(), reason });
     }
     if metadata.len() > limits.file_bytes {
         return Err(too_long(metadata.len()));
     }
     let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
     // The file may grow while it is read.
-    handle
-        .take(limits.file_bytes.saturating_add(1))
-        .read_to_end(&mut bytes)
-        .map_err(fail)?;
+    handle.take(limits.file_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(fail)?;
     if bytes.len() as u64 > limits.file_bytes {
         return Err(too_long(bytes.len() as u64));
     }

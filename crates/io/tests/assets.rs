@@ -15,12 +15,9 @@ fn scene() -> (tempfile::TempDir, FileAssets) {
 #[test]
 fn files_below_the_folder_are_read_with_either_slash() {
     let (_root, assets) = scene();
-    for path in [
-        "textures/a b.txt",
-        "textures\\a b.txt",
-        "./textures//a b.txt",
-        "textures/../textures/a b.txt",
-    ] {
+    for path in
+        ["textures/a b.txt", "textures\\a b.txt", "./textures//a b.txt", "textures/../textures/a b.txt"]
+    {
         assert_eq!(&*assets.bytes(path).expect(path), b"inside");
     }
 }
@@ -29,20 +26,10 @@ fn files_below_the_folder_are_read_with_either_slash() {
 fn paths_that_leave_the_folder_are_refused() {
     let (root, assets) = scene();
     let absolute = root.path().join("secret.txt").display().to_string();
-    for path in [
-        "../secret.txt",
-        "textures/../../secret.txt",
-        "..\\secret.txt",
-        "/etc/passwd",
-        "C:\\x",
-        &absolute,
-    ] {
-        assert_eq!(
-            assets.bytes(path),
-            Err(AssetError::Outside {
-                path: path.to_owned()
-            })
-        );
+    for path in
+        ["../secret.txt", "textures/../../secret.txt", "..\\secret.txt", "/etc/passwd", "C:\\x", &absolute]
+    {
+        assert_eq!(assets.bytes(path), Err(AssetError::Outside { path: path.to_owned() }));
     }
 }
 
@@ -67,15 +54,9 @@ fn missing_files_are_named_as_written() {
 #[test]
 fn the_length_is_checked_before_reading() {
     let (root, _) = scene();
-    let limits = Limits {
-        file_bytes: 5,
-        ..Limits::default()
-    };
+    let limits = Limits { file_bytes: 5, ..Limits::default() };
     let assets = FileAssets::new(root.path().join("scene"), limits);
-    assert!(matches!(
-        assets.bytes("textures/a b.txt"),
-        Err(AssetError::Limits { .. })
-    ));
+    assert!(matches!(assets.bytes("textures/a b.txt"), Err(AssetError::Limits { .. })));
 }
 
 #[test]
@@ -84,15 +65,9 @@ fn images_are_decoded_once_and_embedded_ones_come_first() {
     let path = root.path().join("scene/textures/dot.png");
     durer_io::image::write_png(&path, 1, 1, &[1, 2, 3]).expect("written");
     let first = assets.image("textures/dot.png").expect("readable");
-    assert!(Arc::ptr_eq(
-        &first,
-        &assets.image("textures/dot.png").expect("readable")
-    ));
+    assert!(Arc::ptr_eq(&first, &assets.image("textures/dot.png").expect("readable")));
     let bytes = fs::read(&path).expect("there");
     assets.insert("image:0", bytes);
     assert_eq!(assets.image("image:0").expect("embedded"), first);
-    assert_eq!(
-        assets.image("image:1").expect_err("missing").to_string(),
-        "image:1: file not found"
-    );
+    assert_eq!(assets.image("image:1").expect_err("missing").to_string(), "image:1: file not found");
 }

@@ -15,11 +15,7 @@ fn triangles(desc: &SceneDesc) -> usize {
 }
 
 fn complaints(imported: &Imported) -> String {
-    imported
-        .diagnostics
-        .iter()
-        .map(|d| format!("\n  {:?} {:?} {}", d.severity, d.at, d.message))
-        .collect()
+    imported.diagnostics.iter().map(|d| format!("\n  {:?} {:?} {}", d.severity, d.at, d.message)).collect()
 }
 
 /// Files and triangle counts of the README's table.
@@ -27,10 +23,7 @@ fn table(shared: &Path) -> Vec<(String, usize)> {
     let readme = std::fs::read_to_string(shared.join("README.md")).expect("README of the corpus");
     let row = |line: &str| {
         let mut cells = line.strip_prefix("| gltf/")?.split(" | ");
-        Some((
-            format!("gltf/{}", cells.next()?.trim()),
-            cells.next()?.trim().parse().ok()?,
-        ))
+        Some((format!("gltf/{}", cells.next()?.trim()), cells.next()?.trim().parse().ok()?))
     };
     readme.lines().filter_map(row).collect()
 }
@@ -44,29 +37,13 @@ fn real_files_import_with_the_triangle_counts_of_the_table() {
         let imported = open(&shared.join(&file), Limits::default());
         let time = started.elapsed();
         if file.contains("Draco") {
-            let refusal = imported
-                .diagnostics
-                .iter()
-                .find(|d| d.severity == Severity::Error)
-                .expect("an error");
-            assert!(
-                refusal.message.contains("KHR_draco_mesh_compression"),
-                "{}",
-                refusal.message
-            );
-            assert!(
-                refusal
-                    .hint
-                    .as_deref()
-                    .is_some_and(|h| h.contains("gltf-transform"))
-            );
+            let refusal =
+                imported.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
+            assert!(refusal.message.contains("KHR_draco_mesh_compression"), "{}", refusal.message);
+            assert!(refusal.hint.as_deref().is_some_and(|h| h.contains("gltf-transform")));
             continue;
         }
-        assert!(
-            !imported.diagnostics.has_errors(),
-            "{file}: {}",
-            complaints(&imported)
-        );
+        assert!(!imported.diagnostics.has_errors(), "{file}: {}", complaints(&imported));
         let desc = &imported.desc;
         println!(
             "{file}: {} triangles, {} shapes, {} meshes, {} materials, {} textures, {} cameras, {} lights, {time:.1?}{}",
@@ -102,13 +79,8 @@ fn every_image_of_the_real_files_is_found_and_decoded() {
         let imported = open(&file, Limits::default());
         for texture in &imported.desc.textures {
             let param = texture.node.params.get("filename").expect("an image map");
-            let durer_scene::Data::Strings(names) = &param.data else {
-                panic!("a string")
-            };
-            imported
-                .assets
-                .image(&names[0])
-                .unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+            let durer_scene::Data::Strings(names) = &param.data else { panic!("a string") };
+            imported.assets.image(&names[0]).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
             images += 1;
         }
     }
@@ -127,20 +99,10 @@ fn damaged_files_import_or_say_where_and_why() {
         }
         let started = Instant::now();
         let imported = open(&file, Limits::default());
-        assert!(
-            started.elapsed().as_secs_f64() < 2.0,
-            "{} takes too long",
-            file.display()
-        );
-        println!(
-            "{}:{}",
-            file.strip_prefix(&shared).expect("below").display(),
-            complaints(&imported)
-        );
+        assert!(started.elapsed().as_secs_f64() < 2.0, "{} takes too long", file.display());
+        println!("{}:{}", file.strip_prefix(&shared).expect("below").display(), complaints(&imported));
         for d in &imported.diagnostics {
-            let Location::Path { file: named, pointer } = &d.at else {
-                panic!("no path: {}", d.message)
-            };
+            let Location::Path { file: named, pointer } = &d.at else { panic!("no path: {}", d.message) };
             assert!(named.ends_with(&*file.file_name().expect("name").to_string_lossy()));
             assert!(pointer.is_empty() || pointer.starts_with('/'), "{pointer}");
         }
@@ -164,17 +126,12 @@ fn mutilated_files_never_panic() {
     let Some(shared) = folder("gltf") else { return };
     let mut state = 0x1234_5678_9abc_def1u64;
     let mut random = move |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 33) as usize) % below
     };
     let place = tempfile::tempdir().expect("temporary folder");
-    for name in [
-        "Box-Embedded.gltf",
-        "BoxInterleaved.glb",
-        "SimpleSparseAccessor/SimpleSparseAccessor.gltf",
-    ] {
+    for name in ["Box-Embedded.gltf", "BoxInterleaved.glb", "SimpleSparseAccessor/SimpleSparseAccessor.gltf"]
+    {
         let original = std::fs::read(shared.join(name)).expect("file of the corpus");
         let copy = place.path().join(Path::new(name).file_name().expect("name"));
         for _ in 0..400 {
@@ -182,17 +139,9 @@ fn mutilated_files_never_panic() {
             for _ in 0..1 + random(3) {
                 let at = random(bytes.len());
                 // Digits for digits keep the JSON readable and make the numbers wild.
-                bytes[at] = if bytes[at].is_ascii_digit() {
-                    b'0' + random(10) as u8
-                } else {
-                    bytes[at]
-                };
+                bytes[at] = if bytes[at].is_ascii_digit() { b'0' + random(10) as u8 } else { bytes[at] };
                 let at = random(bytes.len());
-                bytes[at] = if random(8) == 0 {
-                    random(256) as u8
-                } else {
-                    bytes[at]
-                };
+                bytes[at] = if random(8) == 0 { random(256) as u8 } else { bytes[at] };
             }
             std::fs::write(&copy, &bytes).expect("written");
             open(&copy, Limits::default());

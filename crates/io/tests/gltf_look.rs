@@ -25,10 +25,7 @@ fn plain_materials_keep_their_factors() {
     ]});
     let desc = import_well(d, &[]).desc;
     let m = &desc.materials[0].node;
-    assert_eq!(
-        (desc.materials[0].name.as_str(), m.kind.as_str()),
-        ("m", "principled")
-    );
+    assert_eq!((desc.materials[0].name.as_str(), m.kind.as_str()), ("m", "principled"));
     for (name, value) in [
         ("basecolor", vec![0.1, 0.2, 0.3]),
         ("alpha", vec![0.4]),
@@ -44,10 +41,7 @@ fn plain_materials_keep_their_factors() {
     }
     assert_eq!(word(m, "alphamode"), "mask");
     let plain = &desc.materials[1].node;
-    assert_eq!(
-        (numbers(plain, "metallic"), numbers(plain, "roughness")),
-        (vec![1.0], vec![1.0])
-    );
+    assert_eq!((numbers(plain, "metallic"), numbers(plain, "roughness")), (vec![1.0], vec![1.0]));
     assert!(plain.params.get("alpha").is_none() && plain.params.get("emission").is_none());
 }
 
@@ -64,37 +58,23 @@ fn textures_carry_channel_encoding_factor_wrap_and_filter() {
     let m = &desc.materials[0].node;
     let texture = |of: &Node, name: &str| -> Node {
         let name = word(of, name);
-        desc.textures
-            .iter()
-            .find(|t| t.name == name)
-            .expect("a texture")
-            .node
-            .clone()
+        desc.textures.iter().find(|t| t.name == name).expect("a texture").node.clone()
     };
     let base = texture(m, "basecolor");
     assert_eq!(word(&base, "filename"), "a b.png");
     assert_eq!(word(&base, "encoding"), "sRGB");
-    assert_eq!(
-        (word(&base, "wrap"), word(&base, "wrapv")),
-        ("clamp".to_owned(), "mirror".to_owned())
-    );
+    assert_eq!((word(&base, "wrap"), word(&base, "wrapv")), ("clamp".to_owned(), "mirror".to_owned()));
     assert_eq!(word(&base, "filter"), "point");
     assert_eq!(numbers(&base, "factor"), [0.5, 1.0, 1.0]);
     let rough = texture(m, "roughness");
-    assert_eq!(
-        (word(&rough, "channel"), word(&rough, "filename")),
-        ("g".to_owned(), "image:1".to_owned())
-    );
+    assert_eq!((word(&rough, "channel"), word(&rough, "filename")), ("g".to_owned(), "image:1".to_owned()));
     assert_eq!(numbers(&rough, "scale"), [0.5]);
     assert!(rough.params.get("wrap").is_none() && rough.params.get("uvmatrix").is_none());
     assert_eq!(word(&texture(m, "metallic"), "channel"), "b");
     assert_eq!(word(&texture(m, "alpha"), "channel"), "a");
     assert_eq!(word(&texture(m, "normal"), "encoding"), "linear");
     assert_eq!(numbers(m, "normalscale"), [2.0]);
-    assert_eq!(
-        &*imported.assets.bytes("image:1").expect("embedded"),
-        b"\x89PNG\r\n\x1a\n"
-    );
+    assert_eq!(&*imported.assets.bytes("image:1").expect("embedded"), b"\x89PNG\r\n\x1a\n");
     // An idle texture (factor 0) is none; one used twice is one.
     assert_eq!(numbers(&desc.materials[1].node, "metallic"), [0.0]);
     assert_eq!(desc.textures.len(), 6);
@@ -109,9 +89,7 @@ fn texture_transforms_become_a_matrix_for_v_upwards() {
         {"pbrMetallicRoughness": {"baseColorTexture": info(json!({"texCoord": 1}))}},
     ]}));
     let imported = import_well(d, &[]);
-    let [moved, plain] = &imported.desc.textures[..] else {
-        panic!("equal textures are one")
-    };
+    let [moved, plain] = &imported.desc.textures[..] else { panic!("equal textures are one") };
     assert_eq!(numbers(&moved.node, "uvmatrix"), [1.0, 0.0, 0.25, 0.0, 1.0, -0.5]);
     assert!(plain.node.params.get("uvmatrix").is_none());
     let (pointer, message) = first(&imported, Severity::Warning);
@@ -127,10 +105,7 @@ fn perspective_cameras_look_along_minus_z_unmirrored_and_without_scale() {
                    "scale": [5, 5, 5]}]});
     let desc = import_well(d, &[]).desc;
     let camera = &desc.cameras[0];
-    assert_eq!(
-        (camera.name.as_str(), camera.node.kind.as_str()),
-        ("eye", "perspective")
-    );
+    assert_eq!((camera.name.as_str(), camera.node.kind.as_str()), ("eye", "perspective"));
     assert_eq!(numbers(&camera.node, "fov"), [0.5f64.to_degrees() as f32]);
     assert_eq!(word(&camera.node, "fovaxis"), "y");
     let m = camera.world_from_camera.at(0.0);
@@ -140,10 +115,7 @@ fn perspective_cameras_look_along_minus_z_unmirrored_and_without_scale() {
     assert!(near(m.transform_vector3(DVec3::X), -DVec3::Z), "right");
     assert!(near(m.transform_vector3(DVec3::Y), DVec3::Y), "up");
     assert!(near(m.transform_point3(DVec3::ZERO), DVec3::new(1.0, 2.0, 3.0)));
-    assert!(
-        m.matrix3.determinant() < 0.0,
-        "from a left-handed to a right-handed space"
-    );
+    assert!(m.matrix3.determinant() < 0.0, "from a left-handed to a right-handed space");
 }
 
 #[test]
@@ -172,27 +144,16 @@ fn punctual_lights_shine_along_minus_z() {
             {"extensions": {"KHR_lights_punctual": {"light": 2}}}],
     });
     let desc = import_well(d, &[]).desc;
-    let [point, spot, sun] = &desc.lights[..] else {
-        panic!("three lights")
-    };
-    assert_eq!(
-        (point.node.kind.as_str(), numbers(&point.node, "I")),
-        ("point", vec![8.0, 4.0, 2.0])
-    );
+    let [point, spot, sun] = &desc.lights[..] else { panic!("three lights") };
+    assert_eq!((point.node.kind.as_str(), numbers(&point.node, "I")), ("point", vec![8.0, 4.0, 2.0]));
     let placed = point.world_from_light.at(0.0);
-    assert!(
-        (placed.transform_point3(DVec3::X) - DVec3::new(2.0, 2.0, 3.0)).length() < 1e-12,
-        "no scale"
-    );
+    assert!((placed.transform_point3(DVec3::X) - DVec3::new(2.0, 2.0, 3.0)).length() < 1e-12, "no scale");
     assert_eq!((spot.name.as_str(), spot.node.kind.as_str()), ("s", "spot"));
     assert_eq!(numbers(&spot.node, "to"), [0.0, 0.0, -1.0]);
     let degrees = 0.5f64.to_degrees() as f32;
     assert_eq!(numbers(&spot.node, "coneangle"), [degrees]);
     assert!((numbers(&spot.node, "conedeltaangle")[0] - degrees / 2.0).abs() < 1e-5);
-    assert_eq!(
-        (sun.node.kind.as_str(), numbers(&sun.node, "L")),
-        ("distant", vec![3.0; 3])
-    );
+    assert_eq!((sun.node.kind.as_str(), numbers(&sun.node, "L")), ("distant", vec![3.0; 3]));
     assert_eq!(numbers(&sun.node, "to"), [0.0, 0.0, -1.0]);
 }
 
@@ -202,10 +163,7 @@ fn unlit_materials_emit_with_a_warning() {
         "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1]}}]});
     let imported = import_well(d, &[]);
     let m = &imported.desc.materials[0].node;
-    assert_eq!(
-        (numbers(m, "emission"), numbers(m, "basecolor")),
-        (vec![1.0, 0.5, 0.0], vec![0.0; 3])
-    );
+    assert_eq!((numbers(m, "emission"), numbers(m, "basecolor")), (vec![1.0, 0.5, 0.0], vec![0.0; 3]));
     assert!(first(&imported, Severity::Warning).1.contains("unlit"));
 }
 
@@ -213,21 +171,13 @@ fn unlit_materials_emit_with_a_warning() {
 fn faults_of_looks_point_at_their_cause() {
     let material = |m: Value| with_images(json!({"materials": [m]}));
     for (d, pointer, text) in [
-        (
-            material(json!({"alphaMode": "blend"})),
-            "/materials/0/alphaMode",
-            "found \"blend\"",
-        ),
+        (material(json!({"alphaMode": "blend"})), "/materials/0/alphaMode", "found \"blend\""),
         (
             material(json!({"normalTexture": {"index": 7}})),
             "/materials/0/normalTexture/index",
             "only 2 textures",
         ),
-        (
-            material(json!({"emissiveFactor": [1, "x", 1]})),
-            "/materials/0/emissiveFactor/1",
-            "found a string",
-        ),
+        (material(json!({"emissiveFactor": [1, "x", 1]})), "/materials/0/emissiveFactor/1", "found a string"),
         (
             json!({"cameras": [{"type": "fisheye"}], "nodes": [{"camera": 0}]}),
             "/cameras/0/type",

@@ -15,10 +15,7 @@ fn load(path: &Path) -> Result<Image, AssetError> {
         ImageData::U16(v) => v.len(),
         ImageData::F32(v) => v.len(),
     };
-    assert_eq!(
-        values as u64,
-        u64::from(image.width) * u64::from(image.height) * u64::from(image.channels)
-    );
+    assert_eq!(values as u64, u64::from(image.width) * u64::from(image.height) * u64::from(image.channels));
     Ok(image)
 }
 
@@ -48,14 +45,8 @@ fn every_png_of_the_suite_has_the_promised_channels_and_depth() {
         assert_eq!(matches!(image.data, ImageData::U16(_)), deep, "{name}");
         let transparent = name.contains("_tb") || name.contains("_tm3") || name.contains("_tp1");
         assert_eq!(image.channels, channels + u32::from(transparent), "{name}");
-        let size = name
-            .split_once("_s")
-            .and_then(|(_, n)| n.get(..2)?.parse().ok())
-            .unwrap_or(32);
-        assert!(
-            (image.width, image.height) == (size, size) || !name.contains("_s"),
-            "{name}"
-        );
+        let size = name.split_once("_s").and_then(|(_, n)| n.get(..2)?.parse().ok()).unwrap_or(32);
+        assert!((image.width, image.height) == (size, size) || !name.contains("_s"), "{name}");
     }
     assert!(all.len() > 100);
 }
@@ -84,22 +75,10 @@ fn jpegs_of_all_codings_are_read() {
     };
     for path in files(&folder) {
         let image = load(&path).unwrap_or_else(|e| panic!("{e}"));
-        println!(
-            "{}: {} x {} x {}",
-            path.display(),
-            image.width,
-            image.height,
-            image.channels
-        );
+        println!("{}: {} x {} x {}", path.display(), image.width, image.height, image.channels);
         assert!(image.width > 1 && image.channels == 3);
-        let ImageData::U8(v) = &image.data else {
-            panic!("8 bits")
-        };
-        assert!(
-            v.iter().any(|&x| x != v[0]),
-            "{}: one colour only",
-            path.display()
-        );
+        let ImageData::U8(v) = &image.data else { panic!("8 bits") };
+        assert!(v.iter().any(|&x| x != v[0]), "{}: one colour only", path.display());
     }
 }
 
@@ -120,9 +99,7 @@ fn conforming_exrs_are_read_or_refused_by_name() {
         }
     }
     let image = load(&folder.join("BrightRingsNanInf.exr")).expect("valid");
-    let ImageData::F32(v) = &image.data else {
-        panic!("floats")
-    };
+    let ImageData::F32(v) = &image.data else { panic!("floats") };
     assert!(v.iter().any(|x| x.is_nan()) && v.iter().any(|x| x.is_infinite()));
 }
 
@@ -141,11 +118,7 @@ fn damaged_images_give_an_error_or_an_image_but_no_panic() {
                 }
                 Err(_) => bad += 1,
             }
-            assert!(
-                before.elapsed().as_secs() < 20,
-                "{} takes too long",
-                path.display()
-            );
+            assert!(before.elapsed().as_secs() < 20, "{} takes too long", path.display());
         }
         println!("{name}: {good} read, {bad} refused in {:?}", started.elapsed());
         assert!(bad > good);
@@ -157,15 +130,10 @@ fn corrupt_pngs_are_refused() {
     let Some(folder) = folder("malformed/images") else {
         return;
     };
-    for path in files(&folder)
-        .iter()
-        .filter(|p| p.extension().is_some_and(|e| e == "png"))
-    {
+    for path in files(&folder).iter().filter(|p| p.extension().is_some_and(|e| e == "png")) {
         let error = load(path).expect_err("a damaged file");
         // Some have a damaged signature, which makes them files of no known format.
-        let signed = std::fs::read(path)
-            .expect("file of the corpus")
-            .starts_with(b"\x89PNG\r\n\x1a\n");
+        let signed = std::fs::read(path).expect("file of the corpus").starts_with(b"\x89PNG\r\n\x1a\n");
         assert_eq!(matches!(error, AssetError::Format { .. }), signed, "{error}");
     }
 }
@@ -175,26 +143,17 @@ fn corrupt_pngs_are_refused() {
 fn mutilated_images_never_panic() {
     let mut state = 0x9e37_79b9_7f4a_7c15u64;
     let mut random = move |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 33) as usize) % below
     };
-    let limits = Limits {
-        image_pixels: 1 << 20,
-        ..Limits::default()
-    };
+    let limits = Limits { image_pixels: 1 << 20, ..Limits::default() };
     for name in ["images/png", "images/jpg", "images/exr"] {
         let Some(folder) = folder(name) else { return };
         for path in files(&folder) {
             let original = std::fs::read(&path).expect("file of the corpus");
             for _ in 0..if original.len() < 20_000 { 60 } else { 6 } {
                 let mut bytes = original.clone();
-                let reach = if random(2) == 0 {
-                    bytes.len()
-                } else {
-                    bytes.len().min(600)
-                };
+                let reach = if random(2) == 0 { bytes.len() } else { bytes.len().min(600) };
                 for _ in 0..1 + random(4) {
                     bytes[random(reach)] = random(256) as u8;
                 }
@@ -222,10 +181,7 @@ fn other_formats_are_refused_by_name() {
         let error = read(bytes, name, Limits::default()).expect_err("unsupported");
         let text = error.to_string();
         assert!(matches!(error, AssetError::Unsupported { .. }), "{text}");
-        assert!(
-            text.starts_with(name) && text.contains(word) && text.contains("OpenEXR"),
-            "{text}"
-        );
+        assert!(text.starts_with(name) && text.contains(word) && text.contains("OpenEXR"), "{text}");
     }
 }
 
@@ -235,13 +191,7 @@ fn image_limits_hold_before_decoding() {
         return;
     };
     let bytes = std::fs::read(folder.join("primary_basn2c08.png")).expect("file of the corpus");
-    let limits = |image_pixels| Limits {
-        image_pixels,
-        ..Limits::default()
-    };
+    let limits = |image_pixels| Limits { image_pixels, ..Limits::default() };
     assert!(read(&bytes, "a", limits(32 * 32)).is_ok());
-    assert!(matches!(
-        read(&bytes, "a", limits(32 * 32 - 1)),
-        Err(AssetError::Limits { .. })
-    ));
+    assert!(matches!(read(&bytes, "a", limits(32 * 32 - 1)), Err(AssetError::Limits { .. })));
 }

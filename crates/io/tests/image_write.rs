@@ -7,10 +7,7 @@ use durer_scene::{ImageData, Limits};
 use std::path::Path;
 
 fn channel(name: &str, values: &[f32]) -> NamedChannel {
-    NamedChannel {
-        name: name.to_owned(),
-        values: values.to_vec(),
-    }
+    NamedChannel { name: name.to_owned(), values: values.to_vec() }
 }
 
 #[test]
@@ -26,33 +23,20 @@ fn png_bytes_survive_a_round_trip_and_are_marked_srgb() {
     let image = read(&bytes, "out.png", Limits::default()).expect("readable");
     assert_eq!((image.width, image.height, image.channels), (7, 5, 3));
     assert_eq!(image.data, ImageData::U8(pixels));
-    assert_eq!(
-        std::fs::read_dir(folder.path()).expect("folder").count(),
-        1,
-        "no temporary file stays"
-    );
+    assert_eq!(std::fs::read_dir(folder.path()).expect("folder").count(), 1, "no temporary file stays");
 }
 
 #[test]
 fn exr_channels_keep_their_exact_bits() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join("out.exr");
-    let odd = [
-        0.0,
-        -0.0,
-        1e-45,
-        f32::MAX,
-        f32::INFINITY,
-        f32::from_bits(0x7fc0_1234),
-    ];
+    let odd = [0.0, -0.0, 1e-45, f32::MAX, f32::INFINITY, f32::from_bits(0x7fc0_1234)];
     let many: Vec<f32> = (0..300 * 40).map(|i| f32::from_bits(i * 0x0001_3579)).collect();
     for (width, height, values) in [(3, 2, &odd[..]), (300, 40, &many[..])] {
         let picture = ExrPicture {
             width,
             height,
-            channels: ["R", "depth.Z", "G", "normal.X", "depth.length"]
-                .map(|n| channel(n, values))
-                .into(),
+            channels: ["R", "depth.Z", "G", "normal.X", "depth.length"].map(|n| channel(n, values)).into(),
             attributes: vec![
                 ("durer".to_owned(), ExrValue::Text("0.1.0 \u{e9}".to_owned())),
                 ("spp".to_owned(), ExrValue::Integer(64)),
@@ -78,28 +62,10 @@ fn exr_channels_keep_their_exact_bits() {
 fn an_exr_is_read_as_interleaved_rgba() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join("out.exr");
-    let channels = vec![
-        channel("B", &[3.0]),
-        channel("A", &[4.0]),
-        channel("G", &[2.0]),
-        channel("R", &[1.0]),
-    ];
-    write_exr(
-        &path,
-        &ExrPicture {
-            width: 1,
-            height: 1,
-            channels,
-            attributes: vec![],
-        },
-    )
-    .expect("written");
-    let image = read(
-        &std::fs::read(&path).expect("there"),
-        "out.exr",
-        Limits::default(),
-    )
-    .expect("readable");
+    let channels =
+        vec![channel("B", &[3.0]), channel("A", &[4.0]), channel("G", &[2.0]), channel("R", &[1.0])];
+    write_exr(&path, &ExrPicture { width: 1, height: 1, channels, attributes: vec![] }).expect("written");
+    let image = read(&std::fs::read(&path).expect("there"), "out.exr", Limits::default()).expect("readable");
     assert_eq!(image.channels, 4);
     assert_eq!(image.data, ImageData::F32(vec![1.0, 2.0, 3.0, 4.0]));
 }
@@ -108,38 +74,22 @@ fn an_exr_is_read_as_interleaved_rgba() {
 fn impossible_pictures_are_refused() {
     let path = Path::new("/nowhere/out.exr");
     let refused = |channels: Vec<NamedChannel>, attributes| {
-        write_exr(
-            path,
-            &ExrPicture {
-                width: 1,
-                height: 1,
-                channels,
-                attributes,
-            },
-        )
-        .expect_err("refused")
-        .reason
+        write_exr(path, &ExrPicture { width: 1, height: 1, channels, attributes })
+            .expect_err("refused")
+            .reason
     };
     assert!(refused(vec![channel("R", &[1.0, 2.0])], vec![]).contains("2 values"));
     assert!(refused(vec![channel("R", &[1.0]), channel("R", &[1.0])], vec![]).contains("two channels"));
     assert!(refused(vec![channel("", &[1.0])], vec![]).contains("cannot be a name"));
     let reserved = vec![("compression".to_owned(), ExrValue::Integer(1))];
     assert!(!refused(vec![channel("R", &[1.0])], reserved).contains("No such file"));
-    assert!(
-        write_png(Path::new("x.png"), 2, 2, &[0; 3])
-            .expect_err("refused")
-            .reason
-            .contains("need 12")
-    );
+    assert!(write_png(Path::new("x.png"), 2, 2, &[0; 3]).expect_err("refused").reason.contains("need 12"));
 }
 
 #[test]
 fn unwritable_places_are_named_with_the_reason() {
     let error = write_png(Path::new("/nowhere/at/all/out.png"), 1, 1, &[0; 3]).expect_err("no such folder");
-    assert!(
-        error.to_string().starts_with("/nowhere/at/all/out.png: "),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("/nowhere/at/all/out.png: "), "{error}");
     assert!(error.reason.contains("No such file"), "{error}");
 }
 
@@ -150,9 +100,6 @@ fn the_suffix_chooses_the_format_in_any_case() {
     assert_eq!(format("out.v2.Exr"), Ok(PictureFormat::Exr));
     for bad in ["out.tiff", "out", "png"] {
         let error = format(bad).expect_err("unknown").to_string();
-        assert!(
-            error.starts_with(bad) && error.contains(".png") && error.contains(".exr"),
-            "{error}"
-        );
+        assert!(error.starts_with(bad) && error.contains(".png") && error.contains(".exr"), "{error}");
     }
 }

@@ -36,33 +36,20 @@ impl Surface {
         // NUMERICS: twice, because the coefficients of both matrices are rounded too
         // (grazing_rays_never_meet_the_surface_they_leave).
         let carried = back * 2.0;
-        let again = m
-            .rows()
-            .map(|r| r[0].abs() * carried.x + r[1].abs() * carried.y + r[2].abs() * carried.z);
+        let again =
+            m.rows().map(|r| r[0].abs() * carried.x + r[1].abs() * carried.y + r[2].abs() * carried.z);
         let p_error = there + Vector3::from(again);
         let turn = |n: Normal3| {
             let n = m.normal(n).normalize();
             if reverse { -n } else { n }
         };
         let (n_g, n_s) = (turn(self.n_g), turn(self.n_s));
-        Self {
-            p,
-            p_error,
-            n_g,
-            n_s,
-            dpdu: m.vector(self.dpdu),
-            dpdv: m.vector(self.dpdv),
-            ..self
-        }
+        Self { p, p_error, n_g, n_s, dpdu: m.vector(self.dpdu), dpdv: m.vector(self.dpdv), ..self }
     }
     /// The same place with its normals turned.
     #[must_use]
     pub fn reversed(self) -> Self {
-        Self {
-            n_g: -self.n_g,
-            n_s: -self.n_s,
-            ..self
-        }
+        Self { n_g: -self.n_g, n_s: -self.n_s, ..self }
     }
     /// The frame that lobes live in: z is the shading normal, x lies nearest to `dpdu`.
     pub fn frame(&self) -> Frame {
@@ -74,26 +61,15 @@ impl Surface {
     }
     /// The ray that leaves towards `d`, started beyond the error of `p` so that it cannot meet this surface by rounding.
     pub fn spawn(&self, d: Vector3, time: f32) -> Ray {
-        Ray {
-            time,
-            ..Ray::new(offset_ray_origin(self.p, self.p_error, self.n_g, d), d)
-        }
+        Ray { time, ..Ray::new(offset_ray_origin(self.p, self.p_error, self.n_g, d), d) }
     }
     /// The segment from here to `to`, which is meant to be visible: it ends one rounding error before it.
     pub fn spawn_to(&self, to: Point3, time: f32) -> Ray {
         let o = offset_ray_origin(self.p, self.p_error, self.n_g, to - self.p);
-        Ray {
-            t_max: 1.0f32.next_down(),
-            time,
-            ..Ray::new(o, to - o)
-        }
+        Ray { t_max: 1.0f32.next_down(), time, ..Ray::new(o, to - o) }
     }
     /// Where textures are looked up.
     pub fn texture_at(&self) -> TextureAt {
-        TextureAt {
-            uv: self.uv,
-            p: self.p,
-            vertex_color: self.vertex_color,
-        }
+        TextureAt { uv: self.uv, p: self.p, vertex_color: self.vertex_color }
     }
 }

@@ -4,19 +4,13 @@ use durer_model::bsdf::{BranchKind, Bsdf, Glossy, Highlight, Lobe};
 use durer_testkit::{DVec3, microfacet::Ggx, quadrature::cosine_hemisphere, random::Random};
 
 fn glossy(f0: f32, alpha: f32) -> Glossy {
-    Glossy {
-        f0: Spectrum::splat(f0),
-        alpha,
-        scale: 1.0,
-    }
+    Glossy { f0: Spectrum::splat(f0), alpha, scale: 1.0 }
 }
 
 /// Every lobe that reflects lights and obeys physics. `Highlight` is left out: the classic formula is neither reciprocal
 /// nor energy conserving (2026-11-22).
 fn physical_lobes() -> Vec<Lobe> {
-    let mut lobes = vec![Lobe::Diffuse {
-        albedo: Spectrum::ONE,
-    }];
+    let mut lobes = vec![Lobe::Diffuse { albedo: Spectrum::ONE }];
     for alpha in [0.001, 0.01, 0.1, 0.25, 0.5, 1.0] {
         lobes.extend([0.0, 0.04, 1.0].map(|f0| Lobe::Glossy(glossy(f0, alpha))));
     }
@@ -38,14 +32,8 @@ fn lobes_are_reciprocal_and_the_same_from_both_sides() {
         for _ in 0..1000 {
             let (wo, wi) = (v(random.direction()), v(random.direction()));
             let (there, back) = (lobe.eval(wo, wi).mean(), lobe.eval(wi, wo).mean());
-            assert!(
-                (there - back).abs() <= 1e-5 * there.max(back),
-                "{lobe:?} {wo:?} {wi:?}: {there} {back}"
-            );
-            assert!(
-                (there - lobe.eval(-wo, -wi).mean()).abs() <= 1e-5 * there,
-                "{lobe:?}"
-            );
+            assert!((there - back).abs() <= 1e-5 * there.max(back), "{lobe:?} {wo:?} {wi:?}: {there} {back}");
+            assert!((there - lobe.eval(-wo, -wi).mean()).abs() <= 1e-5 * there, "{lobe:?}");
             assert!(there == 0.0 || wo.z * wi.z > 0.0, "{lobe:?} transmits");
         }
     }
@@ -71,11 +59,7 @@ fn no_direction_gives_nan_or_infinity() {
                 assert!((f * wi.z.abs()).is_finite());
             }
             let bsdf = Bsdf::default().with(lobe);
-            assert!(
-                bsdf.branches(wo)
-                    .iter()
-                    .all(|b| b.weight.is_finite() && b.wi.is_finite())
-            );
+            assert!(bsdf.branches(wo).iter().all(|b| b.weight.is_finite() && b.wi.is_finite()));
             assert!(bsdf.glossy(wo).is_none_or(|g| g.weight.is_finite()));
         }
     }
@@ -88,9 +72,7 @@ fn furnace(lobe: &Lobe, alpha: f64, wo: DVec3, n: usize) -> f64 {
 
 #[test]
 fn the_white_furnace_of_a_diffuse_lobe_is_one() {
-    let lobe = Lobe::Diffuse {
-        albedo: Spectrum::ONE,
-    };
+    let lobe = Lobe::Diffuse { albedo: Spectrum::ONE };
     let wo = Vector3::new(0.6, 0.0, 0.8);
     let sum = cosine_hemisphere(32, |wi| f64::from(lobe.eval(wo, v(wi)).mean()));
     assert!((sum - 1.0).abs() < 1e-6);
@@ -107,12 +89,7 @@ fn the_white_furnace_of_glossy_lobes_matches_closed_forms() {
         (0.5, 1.0, 0.450694),
     ];
     for (cos, alpha, expected) in table {
-        let sum = furnace(
-            &Lobe::Glossy(glossy(1.0, alpha as f32)),
-            alpha,
-            seen_under(cos),
-            500,
-        );
+        let sum = furnace(&Lobe::Glossy(glossy(1.0, alpha as f32)), alpha, seen_under(cos), 500);
         assert!((sum - expected).abs() < 1e-3, "cos {cos} alpha {alpha}: {sum}");
     }
 }
@@ -122,12 +99,7 @@ fn no_lobe_reflects_more_than_arrives() {
     for alpha in [0.001, 0.02, 0.1, 0.3, 0.6, 1.0] {
         for cos in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {
             for f0 in [0.0, 0.04, 1.0] {
-                let sum = furnace(
-                    &Lobe::Glossy(glossy(f0, alpha as f32)),
-                    alpha,
-                    seen_under(cos),
-                    100,
-                );
+                let sum = furnace(&Lobe::Glossy(glossy(f0, alpha as f32)), alpha, seen_under(cos), 100);
                 assert!(sum <= 1.0 + 1e-3, "alpha {alpha} cos {cos} f0 {f0}: {sum}");
             }
         }
@@ -140,14 +112,9 @@ fn the_split_sum_is_near_the_integral() {
         for cos in [0.02, 0.07, 0.15, 0.33, 0.5, 0.8, 0.97] {
             let (a, b) = Ggx { alpha }.albedo(cos, 400);
             for f0 in [0.0, 0.04, 0.5, 1.0] {
-                let got = glossy(f0, alpha as f32)
-                    .directional_albedo(v(seen_under(cos)))
-                    .mean();
+                let got = glossy(f0, alpha as f32).directional_albedo(v(seen_under(cos))).mean();
                 let expected = f64::from(f0) * a + b;
-                assert!(
-                    (f64::from(got) - expected).abs() < 0.015,
-                    "{alpha} {cos} {f0}: {got} {expected}"
-                );
+                assert!((f64::from(got) - expected).abs() < 0.015, "{alpha} {cos} {f0}: {got} {expected}");
                 assert!(got <= 1.0);
             }
         }
@@ -158,10 +125,7 @@ fn the_split_sum_is_near_the_integral() {
 fn branch_and_view_of_a_glossy_lobe_weigh_its_directional_albedo() {
     let wo = v(seen_under(0.4));
     for alpha in [0.0, 0.0005, 0.001, 0.01, 0.02, 0.05, 0.1, 0.19, 0.2, 0.5, 1.0] {
-        let lobe = Glossy {
-            scale: 0.5,
-            ..glossy(0.3, alpha)
-        };
+        let lobe = Glossy { scale: 0.5, ..glossy(0.3, alpha) };
         let bsdf = Bsdf::default().with(Lobe::Glossy(lobe));
         let branch = bsdf.branches(wo).iter().map(|b| (b.kind, b.weight)).next();
         let view = bsdf.glossy(wo);
@@ -169,10 +133,7 @@ fn branch_and_view_of_a_glossy_lobe_weigh_its_directional_albedo() {
         assert_eq!(view.is_some(), alpha > 0.02);
         assert!(branch.is_none_or(|(kind, _)| kind == BranchKind::Reflection));
         let sum = branch.map_or(Spectrum::BLACK, |b| b.1) + view.map_or(Spectrum::BLACK, |g| g.weight);
-        assert!(
-            (sum.mean() - 0.5 * lobe.directional_albedo(wo).mean()).abs() < 1e-6,
-            "{alpha}"
-        );
+        assert!((sum.mean() - 0.5 * lobe.directional_albedo(wo).mean()).abs() < 1e-6, "{alpha}");
     }
 }
 
@@ -199,17 +160,8 @@ fn albedo_table_is_the_integral() {
             let got = |f0: f32| f64::from(glossy(f0, at(row) as f32).directional_albedo(wo).mean());
             // At grazing incidence the quadrature itself converges slowly.
             let tolerance = if column == 0 { 0.02 } else { 5e-3 };
-            assert!(
-                (got(0.0) - b).abs() < tolerance,
-                "B at {row} {column}: {} {b}",
-                got(0.0)
-            );
-            assert!(
-                (got(1.0) - a - b).abs() < tolerance,
-                "A + B at {row} {column}: {} {}",
-                got(1.0),
-                a + b
-            );
+            assert!((got(0.0) - b).abs() < tolerance, "B at {row} {column}: {} {b}", got(0.0));
+            assert!((got(1.0) - a - b).abs() < tolerance, "A + B at {row} {column}: {} {}", got(1.0), a + b);
         }
     }
 }
@@ -221,10 +173,8 @@ fn print_albedo_table() {
         println!("    [");
         for columns in [0..6, 6..11, 11..16] {
             let pairs: Vec<_> = columns.map(|c| table_node(row, c, 1000)).collect();
-            let line: Vec<_> = pairs
-                .iter()
-                .map(|[a, b]| format!("[{:.4}, {:.4}]", a.min(1.0 - b), b))
-                .collect();
+            let line: Vec<_> =
+                pairs.iter().map(|[a, b]| format!("[{:.4}, {:.4}]", a.min(1.0 - b), b)).collect();
             println!("        {},", line.join(", "));
         }
         println!("    ],");

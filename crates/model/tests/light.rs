@@ -1,9 +1,10 @@
 //! T0 and T5 for lights: closed forms, registry-wide sanity, parameters.
 use std::f64::consts::{PI, TAU};
 
+use durer_core::sampling::{Sampler, SamplerKind};
 use durer_core::{
     glam::{DAffine3, DQuat, DVec3},
-    math::{Normal3, Point2, Point3, Transform, Vector3},
+    math::{Normal3, Point3, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
 use durer_model::light::{LIGHTS, Light, LightSample, NOT_YET};
@@ -31,7 +32,7 @@ fn point3(params: Params, name: &str, p: [f32; 3]) -> Params {
 }
 
 fn arriving(light: &dyn Light, p: Point3) -> Option<LightSample> {
-    light.sample(Basis::Rgb, p, Point2::new(0.5, 0.5))
+    light.sample(Basis::Rgb, p, &Sampler::new(SamplerKind::Sobol, 0, [0, 0], 0, 1))
 }
 
 fn close(got: f32, expected: f64, relative: f64) -> bool {
@@ -44,11 +45,7 @@ fn v(d: DVec3) -> Vector3 {
 
 #[test]
 fn irradiance_of_a_point_light_falls_with_the_square_of_distance() {
-    let params = point3(
-        Params::new().rgb("I", [2.0, 4.0, 8.0]).float("scale", 3.0),
-        "from",
-        [0.0, 5.0, 0.0],
-    );
+    let params = point3(Params::new().rgb("I", [2.0, 4.0, 8.0]).float("scale", 3.0), "from", [0.0, 5.0, 0.0]);
     let light = light("point", params);
     let p = Point3::new(3.0, 1.0, 0.0);
     let sample = arriving(&*light, p).expect("lit");
@@ -64,10 +61,7 @@ fn irradiance_of_a_point_light_falls_with_the_square_of_distance() {
 
 #[test]
 fn without_falloff_a_facing_matte_surface_reflects_kd_times_intensity() {
-    let light = light(
-        "point",
-        Params::new().string("falloff", "none").rgb("I", [0.7; 3]),
-    );
+    let light = light("point", Params::new().string("falloff", "none").rgb("I", [0.7; 3]));
     for distance in [0.1, 1.0, 1e4] {
         let sample = arriving(&*light, Point3::new(0.0, 0.0, distance)).expect("lit");
         let reflected = sample.weight * (0.25 / std::f32::consts::PI);
@@ -77,10 +71,7 @@ fn without_falloff_a_facing_matte_surface_reflects_kd_times_intensity() {
 
 #[test]
 fn power_of_a_point_light_is_the_integral_of_its_irradiance() {
-    let params = Params::new()
-        .rgb("I", [0.1, 2.0, 3.0])
-        .float("power", 20.0)
-        .float("scale", 2.0);
+    let params = Params::new().rgb("I", [0.1, 2.0, 3.0]).float("power", 20.0).float("scale", 2.0);
     let light = light("point", params);
     let luminance = |s: Spectrum| {
         let [r, g, b] = Basis::Rgb.to_rgb(s);
@@ -92,37 +83,22 @@ fn power_of_a_point_light_is_the_integral_of_its_irradiance() {
 
 #[test]
 fn a_spot_light_sends_its_power_into_its_cone() {
-    let base = || {
-        Params::new()
-            .float("coneangle", 40.0)
-            .float("conedeltaangle", 15.0)
-    };
+    let base = || Params::new().float("coneangle", 40.0).float("conedeltaangle", 15.0);
     let spot = light("spot", base());
     let intensity =
         |w: DVec3| arriving(&*spot, Point3::ZERO + v(w)).map_or(0.0, |s| f64::from(s.weight.mean()));
     let numeric = quadrature::sphere(1000, intensity);
     let (inner, outer) = (25f64.to_radians().cos(), 40f64.to_radians().cos());
     let expected = TAU * ((1.0 - inner) + 0.5 * (inner - outer));
-    assert!(
-        (numeric - expected).abs() < 1e-3 * expected,
-        "{numeric} {expected}"
-    );
+    assert!((numeric - expected).abs() < 1e-3 * expected, "{numeric} {expected}");
 
-    let at = |degrees: f64| {
-        intensity(DVec3::new(
-            degrees.to_radians().sin(),
-            0.0,
-            degrees.to_radians().cos(),
-        ))
-    };
+    let at =
+        |degrees: f64| intensity(DVec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos()));
     assert!((at(0.0) - 1.0).abs() < 1e-6 && (at(24.9) - 1.0).abs() < 1e-6);
     assert!(at(40.1) == 0.0 && at(180.0) == 0.0 && at(30.0) > at(35.0));
 
     let powered = light("spot", base().float("power", 7.0));
-    let got = arriving(&*powered, Point3::new(0.0, 0.0, 1.0))
-        .expect("lit")
-        .weight
-        .mean();
+    let got = arriving(&*powered, Point3::new(0.0, 0.0, 1.0)).expect("lit").weight.mean();
     assert!(close(got, 7.0 / expected, 1e-5));
 }
 
@@ -139,10 +115,7 @@ fn distant_light_is_the_same_everywhere() {
 
 #[test]
 fn a_constant_sky_is_its_own_ambient_term() {
-    let sky = light(
-        "infinite",
-        Params::new().rgb("L", [0.5, 1.0, 2.0]).float("scale", 2.0),
-    );
+    let sky = light("infinite", Params::new().rgb("L", [0.5, 1.0, 2.0]).float("scale", 2.0));
     let mut random = Random::new(5);
     for _ in 0..100 {
         let d = v(random.direction());
@@ -154,18 +127,12 @@ fn a_constant_sky_is_its_own_ambient_term() {
     assert!(arriving(&*sky, Point3::ZERO).is_none());
     // E7: irradiance under a uniform sky of radiance 1 is pi.
     let one = light("infinite", Params::new().float("illuminance", PI as f32));
-    assert!(close(
-        one.escaped(Basis::Rgb, Vector3::new(0.0, 1.0, 0.0)).mean(),
-        1.0,
-        1e-6
-    ));
+    assert!(close(one.escaped(Basis::Rgb, Vector3::new(0.0, 1.0, 0.0)).mean(), 1.0, 1e-6));
 }
 
 #[test]
 fn the_ambient_term_of_a_gradient_sky_is_its_integral() {
-    let params = Params::new()
-        .rgb("zenith", [0.0, 0.0, 1.0])
-        .rgb("horizon", [0.0, 1.0, 0.0]);
+    let params = Params::new().rgb("zenith", [0.0, 0.0, 1.0]).rgb("horizon", [0.0, 1.0, 0.0]);
     let params = params.rgb("ground", [1.0, 0.0, 0.0]).float("scale", 4.0);
     let sky = light("gradientsky", params);
     let mut random = Random::new(8);
@@ -181,10 +148,7 @@ fn the_ambient_term_of_a_gradient_sky_is_its_integral() {
         });
         let got = Basis::Rgb.to_rgb(sky.ambient(Basis::Rgb, Normal3::from_f64(n)));
         for i in 0..3 {
-            assert!(
-                (f64::from(got[i]) - sums[i]).abs() < 0.01 * 4.0 * 0.5,
-                "{n}: {got:?} {sums:?}"
-            );
+            assert!((f64::from(got[i]) - sums[i]).abs() < 0.01 * 4.0 * 0.5, "{n}: {got:?} {sums:?}");
         }
         let (got, sum) = (got.iter().sum::<f32>(), sums.iter().sum::<f64>());
         assert!(close(got, sum, 1e-3) && close(got, 4.0, 1e-3));
@@ -200,10 +164,8 @@ fn glossy_views_of_a_gradient_sky_go_from_sharp_to_ambient() {
         let d = v(random.direction());
         let sharp = blue(sky.escaped(Basis::Rgb, d));
         assert!((blue(sky.glossy_ambient(Basis::Rgb, d, 0.0)) - sharp).abs() < 0.02);
-        let (dull, matte) = (
-            blue(sky.glossy_ambient(Basis::Rgb, d, 1.0)),
-            blue(sky.ambient(Basis::Rgb, d.into())),
-        );
+        let (dull, matte) =
+            (blue(sky.glossy_ambient(Basis::Rgb, d, 1.0)), blue(sky.ambient(Basis::Rgb, d.into())));
         assert!((dull - matte).abs() < 0.12, "{d:?}: {dull} {matte}");
     }
     // The zenith is the bluest point towards the horizon's end of the range, so blur moves it monotonically.
@@ -255,25 +217,14 @@ fn every_light_gives_finite_light_everywhere() {
             let d = random.direction();
             let p = Point3::ZERO + v(d * 10f64.powi(i % 9 - 4));
             if let Some(s) = arriving(&*light, p) {
-                assert!(
-                    s.weight.is_finite() && s.weight.max() > 0.0,
-                    "{}",
-                    entry.schema.name
-                );
+                assert!(s.weight.is_finite() && s.weight.max() > 0.0, "{}", entry.schema.name);
                 assert!((s.wi.length() - 1.0).abs() < 1e-5);
             }
             let d = v(d);
             let alpha = random.unit() as f32;
-            let seen = [
-                light.escaped(Basis::Rgb, d),
-                light.glossy_ambient(Basis::Rgb, d, alpha),
-            ];
+            let seen = [light.escaped(Basis::Rgb, d), light.glossy_ambient(Basis::Rgb, d, alpha)];
             let all = seen.into_iter().chain([light.ambient(Basis::Rgb, d.into())]);
-            assert!(
-                all.into_iter().all(|s| s.is_finite() && s.mean() >= 0.0),
-                "{}",
-                entry.schema.name
-            );
+            assert!(all.into_iter().all(|s| s.is_finite() && s.mean() >= 0.0), "{}", entry.schema.name);
         }
     }
 }
@@ -282,10 +233,7 @@ fn every_light_gives_finite_light_everywhere() {
 fn contradictory_parameters_are_refused() {
     let map = Params::new().string("filename", "sky.exr");
     let said = try_light("infinite", map).expect_err("no maps yet");
-    assert!(
-        said.iter()
-            .any(|d| d.message == "image environment maps are not supported yet")
-    );
+    assert!(said.iter().any(|d| d.message == "image environment maps are not supported yet"));
     assert!(try_light("distant", point3(Params::new(), "to", [0.0; 3])).is_err());
     assert!(try_light("spot", point3(Params::new(), "from", [0.0, 0.0, 1.0])).is_err());
     assert!(try_light("point", Params::new().rgb("I", [0.0; 3]).float("power", 1.0)).is_err());

@@ -11,10 +11,7 @@ use durer_model::{
 use durer_scene::{Args, Data, Diagnostics, Node, Params, Severity, ValueType, find};
 use durer_testkit::{DVec3, quadrature::cosine_hemisphere, random::Random};
 
-const CX: ShadeCx<'static> = ShadeCx {
-    basis: Basis::Rgb,
-    textures: &[],
-};
+const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[] };
 
 fn built(kind: &str, params: Params) -> (Option<Box<dyn Material>>, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
@@ -59,9 +56,7 @@ fn branches(bsdf: &Bsdf, wo: Vector3) -> Vec<Branch> {
 
 /// What the surface returns of a sky of radiance 1, as an integrator without sampling sees it.
 fn seen_in_a_uniform_sky(bsdf: &Bsdf, wo: Vector3) -> f32 {
-    let sharp: Spectrum = branches(bsdf, wo)
-        .iter()
-        .fold(Spectrum::BLACK, |sum, b| sum + b.weight);
+    let sharp: Spectrum = branches(bsdf, wo).iter().fold(Spectrum::BLACK, |sum, b| sum + b.weight);
     let gloss = bsdf.glossy(wo).map_or(Spectrum::BLACK, |g| g.weight);
     (bsdf.ambient() + gloss + sharp).max()
 }
@@ -77,9 +72,7 @@ fn corners(kind: &str) -> Vec<Params> {
                 for (metallic, transmission, alpha) in
                     [(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.5, 0.5, 0.5), (0.0, 1.0, 1.0)]
                 {
-                    let p = Params::new()
-                        .float("roughness", roughness)
-                        .float("metallic", metallic);
+                    let p = Params::new().float("roughness", roughness).float("metallic", metallic);
                     let p = p.float("transmission", transmission).float("alpha", alpha);
                     sets.push(p.string("alphamode", "blend"));
                 }
@@ -99,11 +92,7 @@ fn no_material_returns_more_than_arrives() {
                 let wo = seen_under(cos);
                 let bsdf = bsdf(&*material, wo);
                 let seen = seen_in_a_uniform_sky(&bsdf, wo);
-                assert!(
-                    seen <= 1.0 + 1e-5,
-                    "{} {params:?} cos {cos}: {seen}",
-                    entry.schema.name
-                );
+                assert!(seen <= 1.0 + 1e-5, "{} {params:?} cos {cos}: {seen}", entry.schema.name);
                 assert!(bsdf.albedo().max() <= 1.0);
                 let side = f64::from(cos.signum());
                 let lit = cosine_hemisphere(48, |wi| {
@@ -111,14 +100,8 @@ fn no_material_returns_more_than_arrives() {
                     f64::from(bsdf.eval(wo, wi).max())
                 });
                 // Narrow lobes need other points, see bsdf_energy; 48² points are coarse for them.
-                let narrow = bsdf
-                    .lobes()
-                    .any(|l| matches!(l, Lobe::Glossy(g) if g.alpha < 0.2));
-                assert!(
-                    narrow || lit <= 1.0 + 0.02,
-                    "{} {params:?} cos {cos}: {lit}",
-                    entry.schema.name
-                );
+                let narrow = bsdf.lobes().any(|l| matches!(l, Lobe::Glossy(g) if g.alpha < 0.2));
+                assert!(narrow || lit <= 1.0 + 0.02, "{} {params:?} cos {cos}: {lit}", entry.schema.name);
             }
         }
     }
@@ -131,14 +114,8 @@ fn lossless_materials_vanish_in_a_uniform_sky() {
         ("mirror", Params::new().rgb("reflectance", [1.0; 3])),
         ("dielectric", Params::new()),
         ("principled", Params::new()),
-        (
-            "principled",
-            Params::new().float("transmission", 1.0).float("roughness", 0.0),
-        ),
-        (
-            "principled",
-            Params::new().float("metallic", 1.0).float("roughness", 0.0),
-        ),
+        ("principled", Params::new().float("transmission", 1.0).float("roughness", 0.0)),
+        ("principled", Params::new().float("metallic", 1.0).float("roughness", 0.0)),
     ] {
         let material = material(kind, params.clone());
         for cos in [1.0, 0.5, 0.05] {
@@ -157,15 +134,8 @@ fn opaque_materials_look_the_same_from_both_sides() {
         let material = material(entry.schema.name, Params::new());
         for _ in 0..200 {
             let (wo, wi) = (direction(&mut random), direction(&mut random));
-            let (front, back) = (
-                bsdf(&*material, wo).eval(wo, wi),
-                bsdf(&*material, -wo).eval(-wo, -wi),
-            );
-            assert!(
-                (front.mean() - back.mean()).abs() <= 1e-5 * front.mean(),
-                "{}",
-                entry.schema.name
-            );
+            let (front, back) = (bsdf(&*material, wo).eval(wo, wi), bsdf(&*material, -wo).eval(-wo, -wi));
+            assert!((front.mean() - back.mean()).abs() <= 1e-5 * front.mean(), "{}", entry.schema.name);
         }
     }
 }
@@ -177,24 +147,14 @@ fn classic_coefficients_become_lobes() {
     assert!(branches(&opaque, wo).is_empty());
     assert_eq!(opaque.ambient(), Spectrum::splat(0.3));
 
-    let params = Params::new()
-        .rgb("ambient", [0.1; 3])
-        .rgb("reflection", [0.4; 3])
-        .rgb("specular", [0.2; 3]);
+    let params = Params::new().rgb("ambient", [0.1; 3]).rgb("reflection", [0.4; 3]).rgb("specular", [0.2; 3]);
     let shiny = bsdf(&*material("classic", params.clone()), wo);
     assert_eq!(shiny.ambient(), Spectrum::splat(0.1));
-    let [r] = branches(&shiny, wo)[..] else {
-        panic!("one branch")
-    };
+    let [r] = branches(&shiny, wo)[..] else { panic!("one branch") };
     assert_eq!((r.kind, r.weight), (BranchKind::Reflection, Spectrum::splat(0.4)));
 
-    let glass = bsdf(
-        &*material("classic", params.rgb("transmission", [0.5; 3]).float("eta", 1.5)),
-        wo,
-    );
-    let [r, t] = branches(&glass, wo)[..] else {
-        panic!("two branches")
-    };
+    let glass = bsdf(&*material("classic", params.rgb("transmission", [0.5; 3]).float("eta", 1.5)), wo);
+    let [r, t] = branches(&glass, wo)[..] else { panic!("two branches") };
     assert_eq!((r.weight, t.weight), (Spectrum::splat(0.4), Spectrum::splat(0.5)));
     assert!((t.wi.x + 0.8 / 1.5).abs() < 1e-6 && t.wi.z < 0.0);
     assert_eq!(glass.lobes().count(), Bsdf::MOST_LOBES);
@@ -205,13 +165,7 @@ fn rough_glass_is_smooth_with_a_warning() {
     let (glass, said) = built("glass", Params::new().float("roughness", 0.3));
     assert!(glass.is_some());
     let said: Vec<_> = said.iter().map(|d| (d.severity, d.message.as_str())).collect();
-    assert_eq!(
-        said,
-        [(
-            Severity::Warning,
-            "rough dielectrics are not supported yet; smooth is used"
-        )]
-    );
+    assert_eq!(said, [(Severity::Warning, "rough dielectrics are not supported yet; smooth is used")]);
     let (_, said) = built("dielectric", Params::new().float("eta", 0.0));
     assert!(said.has_errors());
 }
@@ -221,16 +175,10 @@ fn coefficients_above_one_are_cut_with_a_warning() {
     let (matte, said) = built("matte", Params::new().rgb("reflectance", [0.5, 2.0, 0.5]));
     assert!(!said.has_errors() && said.iter().count() == 1);
     let wo = seen_under(0.5);
-    assert_eq!(
-        Basis::Rgb.to_rgb(bsdf(&*matte.expect("built"), wo).albedo()),
-        [0.5, 1.0, 0.5]
-    );
+    assert_eq!(Basis::Rgb.to_rgb(bsdf(&*matte.expect("built"), wo).albedo()), [0.5, 1.0, 0.5]);
     // Measured spectra are pairs of wavelength and value.
     let pairs = Data::Floats(vec![400.0, 0.2, 700.0, 0.4]);
-    let (matte, said) = built(
-        "diffuse",
-        Params::new().with("reflectance", ValueType::Spectrum, pairs),
-    );
+    let (matte, said) = built("diffuse", Params::new().with("reflectance", ValueType::Spectrum, pairs));
     assert!(!said.has_errors());
     assert!((bsdf(&*matte.expect("built"), wo).albedo().mean() - 0.3).abs() < 1e-6);
 }
@@ -238,21 +186,15 @@ fn coefficients_above_one_are_cut_with_a_warning() {
 #[test]
 fn metals_are_tinted_and_dielectrics_are_not() {
     let wo = seen_under(1.0);
-    let gold = Params::new()
-        .rgb("basecolor", [1.0, 0.7, 0.3])
-        .float("roughness", 0.0);
+    let gold = Params::new().rgb("basecolor", [1.0, 0.7, 0.3]).float("roughness", 0.0);
     let metal = bsdf(&*material("principled", gold.clone().float("metallic", 1.0)), wo);
-    let [r] = branches(&metal, wo)[..] else {
-        panic!("one branch")
-    };
+    let [r] = branches(&metal, wo)[..] else { panic!("one branch") };
     let rgb = Basis::Rgb.to_rgb(r.weight);
     assert!((rgb[0] - 1.0).abs() < 1e-6 && (rgb[1] - 0.7).abs() < 1e-6 && (rgb[2] - 0.3).abs() < 1e-6);
     assert_eq!(metal.ambient(), Spectrum::BLACK);
 
     let plastic = bsdf(&*material("principled", gold), wo);
-    let [r] = branches(&plastic, wo)[..] else {
-        panic!("one branch")
-    };
+    let [r] = branches(&plastic, wo)[..] else { panic!("one branch") };
     assert!((r.weight.mean() - 0.04).abs() < 1e-6);
     let body = Basis::Rgb.to_rgb(plastic.ambient());
     assert!((body[0] - 0.96).abs() < 1e-5 && (body[2] - 0.288).abs() < 1e-5);
@@ -261,76 +203,44 @@ fn metals_are_tinted_and_dielectrics_are_not() {
 #[test]
 fn coverage_lets_the_rest_pass_straight_on() {
     let wo = seen_under(0.8);
-    let half = Params::new()
-        .rgb("basecolor", [0.0; 3])
-        .float("alpha", 0.25)
-        .float("metallic", 1.0);
-    let blend = bsdf(
-        &*material("principled", half.clone().string("alphamode", "blend")),
-        wo,
-    );
-    let [t] = branches(&blend, wo)[..] else {
-        panic!("one branch")
-    };
-    assert_eq!(
-        (t.kind, t.wi, t.weight),
-        (BranchKind::Transmission, -wo, Spectrum::splat(0.75))
-    );
+    let half = Params::new().rgb("basecolor", [0.0; 3]).float("alpha", 0.25).float("metallic", 1.0);
+    let blend = bsdf(&*material("principled", half.clone().string("alphamode", "blend")), wo);
+    let [t] = branches(&blend, wo)[..] else { panic!("one branch") };
+    assert_eq!((t.kind, t.wi, t.weight), (BranchKind::Transmission, -wo, Spectrum::splat(0.75)));
 
     let mask = material("principled", half.clone().string("alphamode", "mask"));
     assert!(mask.has_holes() && mask.is_hole(&CX, &place().texture_at()));
-    let solid = material(
-        "principled",
-        half.string("alphamode", "mask").float("alphacutoff", 0.2),
-    );
+    let solid = material("principled", half.string("alphamode", "mask").float("alphacutoff", 0.2));
     let at = place().texture_at();
     assert!(!solid.is_hole(&CX, &at));
     // The vertices' alpha counts too.
-    assert!(solid.is_hole(
-        &CX,
-        &durer_model::texture::TextureAt {
-            vertex_color: [1.0, 1.0, 1.0, 0.5],
-            ..at
-        }
-    ));
+    assert!(
+        solid.is_hole(&CX, &durer_model::texture::TextureAt { vertex_color: [1.0, 1.0, 1.0, 0.5], ..at })
+    );
     let opaque = material("principled", Params::new().float("alpha", 0.0));
     assert!(!opaque.has_holes() && branches(&bsdf(&*opaque, wo), wo).is_empty());
 }
 
 #[test]
 fn vertex_colours_multiply_the_base_colour() {
-    let material = material(
-        "principled",
-        Params::new().rgb("basecolor", [0.5; 3]).float("eta", 1.0),
-    );
-    let mut surface = Surface {
-        vertex_color: [1.0, 0.5, 0.0, 1.0],
-        ..place()
-    };
+    let material = material("principled", Params::new().rgb("basecolor", [0.5; 3]).float("eta", 1.0));
+    let mut surface = Surface { vertex_color: [1.0, 0.5, 0.0, 1.0], ..place() };
     let rgb = Basis::Rgb.to_rgb(material.bsdf(&CX, &mut surface, seen_under(1.0)).ambient());
     assert!((rgb[0] - 0.5).abs() < 1e-6 && (rgb[1] - 0.25).abs() < 1e-6 && rgb[2] == 0.0);
 }
 
 #[test]
 fn emission_is_colour_times_strength_and_coverage() {
-    let params = Params::new()
-        .rgb("emission", [1.0, 0.5, 0.0])
-        .float("emissionstrength", 8.0);
+    let params = Params::new().rgb("emission", [1.0, 0.5, 0.0]).float("emissionstrength", 8.0);
     let at = place().texture_at();
     let glow = material("principled", params.clone()).emission(&CX, &at);
     assert_eq!(Basis::Rgb.to_rgb(glow), [8.0, 4.0, 0.0]);
     let thin = params.float("alpha", 0.5).string("alphamode", "blend");
-    assert_eq!(
-        Basis::Rgb.to_rgb(material("principled", thin).emission(&CX, &at)),
-        [4.0, 2.0, 0.0]
-    );
+    assert_eq!(Basis::Rgb.to_rgb(material("principled", thin).emission(&CX, &at)), [4.0, 2.0, 0.0]);
 }
 
 fn tilted(surface: Surface, rgb: [f32; 3], scale: f32, wo: Vector3) -> Normal3 {
-    let material = material(
-        "principled",
-        Params::new().rgb("normal", rgb).float("normalscale", scale),
-    );
+    let material = material("principled", Params::new().rgb("normal", rgb).float("normalscale", scale));
     let mut surface = surface;
     material.bsdf(&CX, &mut surface, wo);
     surface.n_s
@@ -344,16 +254,9 @@ fn normal_maps_tilt_towards_growing_u_and_v() {
     assert!(near(tilted(place(), [0.8, 0.5, 0.9], 1.0, up), 0.6, 0.0, 0.8));
     assert!(near(tilted(place(), [0.5, 0.8, 0.9], 1.0, up), 0.0, 0.6, 0.8));
     assert!(near(tilted(place(), [0.8, 0.5, 0.9], -1.0, up), -0.6, 0.0, 0.8));
-    let mirrored = Surface {
-        dpdv: Vector3::new(0.0, -1.0, 0.0),
-        ..place()
-    };
+    let mirrored = Surface { dpdv: Vector3::new(0.0, -1.0, 0.0), ..place() };
     assert!(near(tilted(mirrored, [0.5, 0.8, 0.9], 1.0, up), 0.0, -0.6, 0.8));
-    let bare = Surface {
-        dpdu: Vector3::ZERO,
-        dpdv: Vector3::ZERO,
-        ..place()
-    };
+    let bare = Surface { dpdu: Vector3::ZERO, dpdv: Vector3::ZERO, ..place() };
     assert!(near(tilted(bare, [0.8, 0.5, 0.9], 1.0, up), 0.0, 0.0, 1.0));
 }
 

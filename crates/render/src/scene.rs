@@ -5,6 +5,7 @@ use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
     math::{Point2, Point3, Ray, Transform, Vector3},
+    sampling::Sampler,
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
@@ -81,9 +82,9 @@ pub struct View {
 
 impl View {
     /// The ray through a point of the picture, in pixels from the upper left corner, in render space and of unit length.
-    pub fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
+    pub fn ray(&self, film: Point2, time: f32, sampler: &Sampler) -> Ray {
         let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
-        let ray = self.render_from_camera.ray(&self.camera.ray(film, lens, time));
+        let ray = self.render_from_camera.ray(&self.camera.ray(film, time, sampler));
         Ray { d: ray.d.normalize(), ..ray }
     }
     /// Cosine between unit direction `d` and the camera's axis: depth along the axis per ray length.

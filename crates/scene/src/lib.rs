@@ -16,12 +16,14 @@ mod span;
 
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use desc::{
-    CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc,
-    TextureValue,
+    CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource,
+    TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity};
 pub use mesh::{Mesh, MeshError};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
-pub use schema::{Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema, find};
+pub use schema::{
+    Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema, find,
+};
 pub use span::{Location, SourceId, Sources, Span};

@@ -15,10 +15,7 @@ pub fn snell(i: DVec3, n: DVec3, eta_r: f64) -> Option<DVec3> {
 pub fn whitted_directions(v: DVec3, n: DVec3, kn: f64) -> (DVec3, Option<DVec3>) {
     let v = v / v.dot(n).abs();
     let under_root = kn * kn * v.length_squared() - (v + n).length_squared();
-    (
-        v + 2.0 * n,
-        (under_root > 0.0).then(|| (n + v) / under_root.sqrt() - n),
-    )
+    (v + 2.0 * n, (under_root > 0.0).then(|| (n + v) / under_root.sqrt() - n))
 }
 
 /// Reflectance for light polarised perpendicular and parallel to the plane of incidence; `eta = eta_t / eta_i`.
@@ -62,10 +59,7 @@ mod tests {
             let t = snell(i, n, 1.0 / kn);
             assert_eq!(p.is_some(), t.is_some(), "i {i} n {n} kn {kn}");
             if let (Some(p), Some(t)) = (p, t) {
-                assert!(
-                    (p.normalize() - t.normalize()).length() < 1e-12,
-                    "i {i} n {n} kn {kn}"
-                );
+                assert!((p.normalize() - t.normalize()).length() < 1e-12, "i {i} n {n} kn {kn}");
             }
         }
     }
@@ -84,13 +78,8 @@ mod tests {
 
     #[test]
     fn critical_angles_match_the_table() {
-        let table = [
-            (1.333, 48.6066),
-            (4.0 / 3.0, 48.5904),
-            (1.5, 41.8103),
-            (1.52, 41.1395),
-            (2.417, 24.4397),
-        ];
+        let table =
+            [(1.333, 48.6066), (4.0 / 3.0, 48.5904), (1.5, 41.8103), (1.52, 41.1395), (2.417, 24.4397)];
         for (n, degrees) in table {
             assert!((critical_angle(n) - degrees).abs() < 1e-4, "{n}");
         }

@@ -79,11 +79,7 @@ mod tests {
         ];
         for (mu, alpha, expected) in table {
             let (a, b) = Ggx { alpha }.albedo(mu, 800);
-            assert!(
-                (a + b - expected).abs() < 3e-4,
-                "mu {mu} alpha {alpha}: {}",
-                a + b
-            );
+            assert!((a + b - expected).abs() < 3e-4, "mu {mu} alpha {alpha}: {}", a + b);
         }
     }
 }

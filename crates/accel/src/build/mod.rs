@@ -33,11 +33,7 @@ pub struct BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self {
-            engine: Engine::Bvh,
-            leaf_max: 4,
-            bins: 16,
-        }
+        Self { engine: Engine::Bvh, leaf_max: 4, bins: 16 }
     }
 }
 
@@ -52,11 +48,7 @@ pub struct AccelBuilder {
 impl AccelBuilder {
     /// An empty scene.
     pub fn new(options: BuildOptions) -> Self {
-        Self {
-            options,
-            geometries: Vec::new(),
-            instances: Vec::new(),
-        }
+        Self { options, geometries: Vec::new(), instances: Vec::new() }
     }
 
     /// Adds a mesh and builds its tree.
@@ -96,15 +88,8 @@ impl AccelBuilder {
         };
         let pose = Pose::new(placement, self.instances.len())?;
         let bounds = pose.bounds(&placed.bounds);
-        let finite = Some(pose.bounds(&placed.finite))
-            .filter(Bounds3::is_finite)
-            .unwrap_or(Bounds3::EMPTY);
-        self.instances.push(Instance {
-            geometry,
-            pose,
-            bounds,
-            finite,
-        });
+        let finite = Some(pose.bounds(&placed.finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
+        self.instances.push(Instance { geometry, pose, bounds, finite });
         Ok(index)
     }
 

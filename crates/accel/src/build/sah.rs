@@ -47,11 +47,7 @@ pub(crate) fn grow(boxes: impl Iterator<Item = Bounds3>, options: &BuildOptions)
     let (mut items, mut aside) = (Vec::new(), Vec::new());
     for (index, bounds) in all {
         if bounds.is_finite() {
-            items.push(Item {
-                bounds,
-                center: bounds.center(),
-                index,
-            });
+            items.push(Item { bounds, center: bounds.center(), index });
         } else {
             aside.push(index);
         }
@@ -67,41 +63,22 @@ pub(crate) fn grow(boxes: impl Iterator<Item = Bounds3>, options: &BuildOptions)
 fn fill(tree: &mut Tree, items: &mut [Item], options: &BuildOptions) {
     tree.bounded = items.len();
     tree.root = leaf(items, 0);
-    let mut tasks = vec![Task {
-        name: 0,
-        begin: 0,
-        end: items.len(),
-        depth: 0,
-    }];
-    while let Some(Task {
-        name,
-        begin,
-        end,
-        depth,
-    }) = tasks.pop()
-    {
+    let mut tasks = vec![Task { name: 0, begin: 0, end: items.len(), depth: 0 }];
+    while let Some(Task { name, begin, end, depth }) = tasks.pop() {
         tree.depth = tree.depth.max(depth);
         let Some(middle) = divide(&mut items[begin..end], depth, options) else {
             continue;
         };
         let middle = begin + middle;
         let link = tree.pairs.len() as u32;
-        let children = [
-            leaf(&items[begin..middle], begin),
-            leaf(&items[middle..end], middle),
-        ];
+        let children = [leaf(&items[begin..middle], begin), leaf(&items[middle..end], middle)];
         tree.pairs.push(Pair(children));
         let parent = match name.checked_sub(1) {
             None => &mut tree.root,
             Some(i) => &mut tree.pairs[i as usize / 2].0[i as usize % 2],
         };
         (parent.link, parent.count) = (link, 0);
-        let below = |side: u32, begin, end| Task {
-            name: 1 + 2 * link + side,
-            begin,
-            end,
-            depth: depth + 1,
-        };
+        let below = |side: u32, begin, end| Task { name: 1 + 2 * link + side, begin, end, depth: depth + 1 };
         tasks.push(below(1, middle, end));
         tasks.push(below(0, begin, middle));
     }
@@ -114,16 +91,8 @@ fn joined(a: Bounds3, b: Bounds3) -> Bounds3 {
     let greater = |a: f32, b: f32| if a > b { a } else { b };
     let (min, max) = (a.min, a.max);
     Bounds3 {
-        min: Point3::new(
-            lesser(min.x, b.min.x),
-            lesser(min.y, b.min.y),
-            lesser(min.z, b.min.z),
-        ),
-        max: Point3::new(
-            greater(max.x, b.max.x),
-            greater(max.y, b.max.y),
-            greater(max.z, b.max.z),
-        ),
+        min: Point3::new(lesser(min.x, b.min.x), lesser(min.y, b.min.y), lesser(min.z, b.min.z)),
+        max: Point3::new(greater(max.x, b.max.x), greater(max.y, b.max.y), greater(max.z, b.max.z)),
     }
 }
 
@@ -156,14 +125,10 @@ fn divide(items: &mut [Item], depth: u32, options: &BuildOptions) -> Option<usiz
 
 /// Half the items by rank of their centres along the widest axis; ties by index, so the result is determined.
 fn halve(items: &mut [Item]) -> usize {
-    let axis = Bounds3::around(items.iter().map(|i| i.center))
-        .diagonal()
-        .max_axis();
+    let axis = Bounds3::around(items.iter().map(|i| i.center)).diagonal().max_axis();
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| {
-        a.center[axis]
-            .total_cmp(&b.center[axis])
-            .then(a.index.cmp(&b.index))
+        a.center[axis].total_cmp(&b.center[axis]).then(a.index.cmp(&b.index))
     });
     middle
 }
@@ -192,19 +157,12 @@ impl Bins {
     fn new(items: &[Item], options: &BuildOptions) -> Self {
         // More bins than twice the items find no better plane.
         let count = (options.bins as usize).min(2 * items.len()).clamp(2, BINS_MAX);
-        let centers = around(items.iter().map(|i| Bounds3 {
-            min: i.center,
-            max: i.center,
-        }));
+        let centers = around(items.iter().map(|i| Bounds3 { min: i.center, max: i.center }));
         let scale = centers.diagonal().to_array().map(|extent| {
             let scale = count as f32 / extent;
             if scale.is_finite() { scale } else { 0.0 }
         });
-        Self {
-            count,
-            origin: centers.min,
-            scale,
-        }
+        Self { count, origin: centers.min, scale }
     }
     fn of(&self, center: Point3, axis: usize) -> usize {
         // `as` saturates and turns NaN into 0.
@@ -217,10 +175,7 @@ impl Bins {
         (0..3)
             .filter(|&axis| self.scale[axis] > 0.0)
             .filter_map(|axis| self.best_on(axis, items))
-            .map(|s| Split {
-                cost: 1.0 + s.cost / whole,
-                ..s
-            })
+            .map(|s| Split { cost: 1.0 + s.cost / whole, ..s })
             .filter(|s| s.cost.is_finite())
             .min_by(|a, b| a.cost.total_cmp(&b.cost))
     }

@@ -34,13 +34,7 @@ impl Shear {
             return None;
         }
         let ratio = |a: usize| ray.d[a % 3] / ray.d[axis];
-        Some(Self {
-            o: ray.o,
-            axis,
-            x: ratio(axis + 1),
-            y: ratio(axis + 2),
-            z,
-        })
+        Some(Self { o: ray.o, axis, x: ratio(axis + 1), y: ratio(axis + 2), z })
     }
 
     /// `p` with the ray as z axis; z is left in units of length.
@@ -125,24 +119,15 @@ fn exact(s: &Shear, vertices: [[f32; 3]; 3], t_min: f32, t_max: f32) -> Option<T
     }
     let largest = e0.abs().max(e1.abs()).max(e2.abs());
     let bound = t_error(s, &vertices, largest, reciprocal);
-    (f64::from(t.abs()) > bound).then_some(TriangleHit {
-        t,
-        weights: weights.map(|w| w as f32),
-    })
+    (f64::from(t.abs()) > bound).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
 }
 
 /// Bound on the absolute error of `t` (Physically Based Rendering, 4th edition, section 6.8.7): the roundings of the
 /// projection carried through edge functions and weighted mean. f64 only so that it cannot overflow.
 fn t_error(s: &Shear, vertices: &[[f32; 3]; 3], largest_edge: f64, reciprocal: f64) -> f64 {
     let g = |n| f64::from(durer_core::math::error::gamma(n));
-    let reach = |i: usize| {
-        f64::from(
-            vertices[0][i]
-                .abs()
-                .max(vertices[1][i].abs())
-                .max(vertices[2][i].abs()),
-        )
-    };
+    let reach =
+        |i: usize| f64::from(vertices[0][i].abs().max(vertices[1][i].abs()).max(vertices[2][i].abs()));
     let (x, y, z) = (reach(0), reach(1), reach(2));
     let (dx, dy, dz) = (g(5) * (x + z), g(5) * (y + z), g(3) * z);
     let d_edge = 2.0 * (g(2) * x * y + dy * x + dx * y);

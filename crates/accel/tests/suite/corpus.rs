@@ -4,11 +4,7 @@ use durer_core::math::{Bounds3, Normal3, Point3, Ray, Vector3};
 
 /// `few`, or a million with `DURER_SLOW` set.
 pub(crate) fn ray_count(few: usize) -> usize {
-    if std::env::var_os("DURER_SLOW").is_some() {
-        1_000_000
-    } else {
-        few
-    }
+    if std::env::var_os("DURER_SLOW").is_some() { 1_000_000 } else { few }
 }
 
 /// splitmix64.
@@ -61,10 +57,7 @@ impl Random {
             }
             3 => {
                 let (o, a, b) = (self.point(r), pick(self), pick(self));
-                Ray::new(
-                    o,
-                    Point3::ZERO + ((a - Point3::ZERO) + (b - Point3::ZERO)) * 0.5 - o,
-                )
+                Ray::new(o, Point3::ZERO + ((a - Point3::ZERO) + (b - Point3::ZERO)) * 0.5 - o)
             }
             // Along an axis, at random or through a landmark; in an axis plane.
             4 => Ray::new(self.point(r), self.axis()),
@@ -121,10 +114,9 @@ impl Shape {
                 let h = (b * b - a * (m.dot(m) - f64::from(radius) * f64::from(radius))).sqrt();
                 [(-b - h) / a, (-b + h) / a]
             }
-            Self::Plane { point, normal } => [
-                (point.to_f64() - o).dot(normal.to_f64()) / d.dot(normal.to_f64()),
-                f64::NAN,
-            ],
+            Self::Plane { point, normal } => {
+                [(point.to_f64() - o).dot(normal.to_f64()) / d.dot(normal.to_f64()), f64::NAN]
+            }
         }
     }
 }
@@ -136,15 +128,7 @@ pub(crate) struct Shapes(pub(crate) Vec<Vec<Shape>>);
 impl UserGeometry for Shapes {
     fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
         let shape = &self.0[instance as usize][prim as usize];
-        let t = shape
-            .roots(ray)
-            .into_iter()
-            .map(|t| t as f32)
-            .find(|t| ray.contains(*t))?;
-        Some(PrimitiveHit {
-            t,
-            u: instance as f32,
-            v: prim as f32,
-        })
+        let t = shape.roots(ray).into_iter().map(|t| t as f32).find(|t| ray.contains(*t))?;
+        Some(PrimitiveHit { t, u: instance as f32, v: prim as f32 })
     }
 }

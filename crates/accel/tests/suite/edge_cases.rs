@@ -12,20 +12,14 @@ use crate::icosphere::icosphere;
 const ENGINES: [Engine; 2] = [Engine::Bvh, Engine::BruteForce];
 
 fn builder(engine: Engine) -> AccelBuilder {
-    AccelBuilder::new(BuildOptions {
-        engine,
-        ..BuildOptions::default()
-    })
+    AccelBuilder::new(BuildOptions { engine, ..BuildOptions::default() })
 }
 fn closest(accel: &Accel, ray: &Ray) -> Option<durer_accel::Hit> {
     accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ())
 }
 fn square() -> Triangles {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from);
-    Triangles {
-        positions: positions.to_vec(),
-        indices: vec![[0, 1, 2], [0, 2, 3]],
-    }
+    Triangles { positions: positions.to_vec(), indices: vec![[0, 1, 2], [0, 2, 3]] }
 }
 
 #[test]
@@ -34,10 +28,8 @@ fn empty_scenes_are_never_hit() {
         let nothing = builder(engine).build();
         let mut b = builder(engine);
         let (mesh, boxes) = (b.triangles(Triangles::default()), b.user(vec![]));
-        b.instance(mesh.expect("empty mesh"), Placement::Identity)
-            .expect("valid placement");
-        b.instance(boxes.expect("no boxes"), Placement::Identity)
-            .expect("valid placement");
+        b.instance(mesh.expect("empty mesh"), Placement::Identity).expect("valid placement");
+        b.instance(boxes.expect("no boxes"), Placement::Identity).expect("valid placement");
         for accel in [nothing, b.build()] {
             let ray = Ray::new(Point3::ZERO, Vector3::new(1.0, 2.0, 3.0));
             assert_eq!(closest(&accel, &ray), None);
@@ -56,57 +48,21 @@ fn impossible_rays_hit_nothing() {
     let good = Ray::new(Point3::new(0.3, 0.6, -1.0), Vector3::new(0.0, 0.0, 1.0));
     assert_eq!(closest(&accel, &good).map(|h| (h.t, h.prim)), Some((1.0, 1)));
     let bad = [
-        Ray {
-            d: Vector3::ZERO,
-            ..good
-        },
-        Ray {
-            d: Vector3::new(f32::NAN, 0.0, 1.0),
-            ..good
-        },
-        Ray {
-            d: Vector3::new(0.0, 0.0, f32::INFINITY),
-            ..good
-        },
-        Ray {
-            o: Point3::new(f32::NAN, 0.0, 0.0),
-            ..good
-        },
-        Ray {
-            t_min: 2.0,
-            t_max: 1.5,
-            ..good
-        },
-        Ray {
-            t_max: f32::NAN,
-            ..good
-        },
-        Ray {
-            t_min: 1.000_001,
-            ..good
-        },
-        Ray {
-            t_max: 0.999_999,
-            ..good
-        },
+        Ray { d: Vector3::ZERO, ..good },
+        Ray { d: Vector3::new(f32::NAN, 0.0, 1.0), ..good },
+        Ray { d: Vector3::new(0.0, 0.0, f32::INFINITY), ..good },
+        Ray { o: Point3::new(f32::NAN, 0.0, 0.0), ..good },
+        Ray { t_min: 2.0, t_max: 1.5, ..good },
+        Ray { t_max: f32::NAN, ..good },
+        Ray { t_min: 1.000_001, ..good },
+        Ray { t_max: 0.999_999, ..good },
     ];
     for ray in bad {
         assert_eq!(closest(&accel, &ray), None, "{ray:?}");
-        assert!(
-            !accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()),
-            "{ray:?}"
-        );
+        assert!(!accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()), "{ray:?}");
     }
-    let ends = Ray {
-        t_min: 1.0,
-        t_max: 1.0,
-        ..good
-    };
-    assert_eq!(
-        closest(&accel, &ends).map(|h| h.t),
-        Some(1.0),
-        "both ends belong to the range"
-    );
+    let ends = Ray { t_min: 1.0, t_max: 1.0, ..good };
+    assert_eq!(closest(&accel, &ends).map(|h| h.t), Some(1.0), "both ends belong to the range");
 }
 
 #[test]
@@ -116,24 +72,10 @@ fn rays_in_the_plane_and_along_the_edges_of_flat_boxes_are_safe() {
         let id = b.triangles(square()).expect("valid mesh");
         b.instance(id, Placement::Identity).expect("valid placement");
         let accel = b.build();
-        for (o, d) in [
-            ([-1.0, 0.5, 0.0], [1.0, 0.0, 0.0]),
-            ([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
-        ] {
-            assert_eq!(
-                closest(&accel, &Ray::new(o.into(), d.into())),
-                None,
-                "edge-on has no area"
-            );
+        for (o, d) in [([-1.0, 0.5, 0.0], [1.0, 0.0, 0.0]), ([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0])] {
+            assert_eq!(closest(&accel, &Ray::new(o.into(), d.into())), None, "edge-on has no area");
         }
-        for (x, y) in [
-            (0.0, 0.0),
-            (1.0, 1.0),
-            (0.5, 0.5),
-            (0.0, 0.5),
-            (1.0, 0.25),
-            (0.5, 1.0),
-        ] {
+        for (x, y) in [(0.0, 0.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.5), (1.0, 0.25), (0.5, 1.0)] {
             for z in [-2.0, 2.0] {
                 let ray = Ray::new(Point3::new(x, y, z), Vector3::new(0.0, 0.0, -z));
                 assert_eq!(closest(&accel, &ray).map(|h| h.t), Some(1.0), "{x} {y} {z}");
@@ -153,10 +95,7 @@ fn weights_belong_to_vertices_one_and_two() {
     let ray = Ray::new(Point3::new(0.75, 0.5, 1.0), Vector3::new(0.0, 0.0, -1.0));
     let hit = closest(&b.build(), &ray).expect("hits");
     // 0.25 (0,0) + 0.25 (1,0) + 0.5 (1,1)
-    assert!(
-        (hit.u - 0.25).abs() < 1e-6 && (hit.v - 0.5).abs() < 1e-6,
-        "{hit:?}"
-    );
+    assert!((hit.u - 0.25).abs() < 1e-6 && (hit.v - 0.5).abs() < 1e-6, "{hit:?}");
 }
 
 #[test]
@@ -167,20 +106,10 @@ fn mistakes_are_named() {
     assert_eq!(b.triangles(nan), Err(BuildError::VertexNotFinite { vertex: 2 }));
     let mut wild = square();
     wild.indices[1][2] = 4;
-    let error = BuildError::VertexOutOfRange {
-        triangle: 1,
-        vertex: 4,
-        vertices: 4,
-    };
+    let error = BuildError::VertexOutOfRange { triangle: 1, vertex: 4, vertices: 4 };
     assert_eq!(b.triangles(wild), Err(error));
-    let hollow = Bounds3 {
-        min: Point3::splat(1.0),
-        max: Point3::ZERO,
-    };
-    let holey = Bounds3 {
-        min: Point3::new(f32::NAN, 0.0, 0.0),
-        max: Point3::splat(1.0),
-    };
+    let hollow = Bounds3 { min: Point3::splat(1.0), max: Point3::ZERO };
+    let holey = Bounds3 { min: Point3::new(f32::NAN, 0.0, 0.0), max: Point3::splat(1.0) };
     for bad in [hollow, holey] {
         let boxes = vec![Bounds3::UNBOUNDED, bad];
         assert_eq!(b.user(boxes), Err(BuildError::BoxInvalid { prim: 1 }));
@@ -192,38 +121,25 @@ fn mistakes_are_named() {
     let whole = Transform::IDENTITY;
     let moving = |keys| Placement::Moving(keys);
     let error = BuildError::TransformSingular { instance: 0, key: 1 };
-    assert_eq!(
-        b.instance(id, moving(vec![(0.0, whole), (1.0, flat)])),
-        Err(error)
-    );
+    assert_eq!(b.instance(id, moving(vec![(0.0, whole), (1.0, flat)])), Err(error));
     for (keys, key) in [
         (vec![], 0),
         (vec![(0.0, whole), (0.0, whole)], 1),
         (vec![(0.0, whole), (1.0, whole), (f32::NAN, whole)], 2),
     ] {
-        assert_eq!(
-            b.instance(id, moving(keys)),
-            Err(BuildError::MotionKeyInvalid { instance: 0, key })
-        );
+        assert_eq!(b.instance(id, moving(keys)), Err(BuildError::MotionKeyInvalid { instance: 0, key }));
     }
     let mut other = builder(Engine::Bvh);
     let unknown = other.instance(id, Placement::Identity);
     assert_eq!(unknown, Err(BuildError::GeometryUnknown { geometry: 0 }));
-    assert_eq!(
-        b.instance(id, Placement::Identity),
-        Ok(0),
-        "nothing was added by the failures"
-    );
+    assert_eq!(b.instance(id, Placement::Identity), Ok(0), "nothing was added by the failures");
 }
 
 #[test]
 fn thousands_of_equal_triangles_make_a_shallow_tree() {
     let mut b = builder(Engine::Bvh);
     let Triangles { positions, indices } = square();
-    let repeated = Triangles {
-        positions,
-        indices: vec![indices[0]; 5000],
-    };
+    let repeated = Triangles { positions, indices: vec![indices[0]; 5000] };
     let id = b.triangles(repeated).expect("valid mesh");
     b.instance(id, Placement::Identity).expect("valid placement");
     let accel = b.build();
@@ -238,27 +154,17 @@ fn lopsided_scenes_stay_within_the_traversal_stack() {
     let mut mesh = Triangles::default();
     for i in 0..124u32 {
         let s = 2f32.powi(i as i32 - 62);
-        mesh.positions
-            .extend([[s, 0.0, s], [s, s, s], [s, 0.0, 2.0 * s]].map(Point3::from));
+        mesh.positions.extend([[s, 0.0, s], [s, s, s], [s, 0.0, 2.0 * s]].map(Point3::from));
         mesh.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
-    let mut b = AccelBuilder::new(BuildOptions {
-        leaf_max: 1,
-        bins: 2,
-        ..BuildOptions::default()
-    });
+    let mut b = AccelBuilder::new(BuildOptions { leaf_max: 1, bins: 2, ..BuildOptions::default() });
     let id = b.triangles(mesh.clone()).expect("valid mesh");
     b.instance(id, Placement::Identity).expect("valid placement");
     let accel = b.build();
-    assert!(
-        accel.stats().max_depth > 30 && accel.stats().max_depth <= 64,
-        "{:?}",
-        accel.stats()
-    );
+    assert!(accel.stats().max_depth > 30 && accel.stats().max_depth <= 64, "{:?}", accel.stats());
     for (prim, [a, b, c]) in mesh.indices.iter().enumerate() {
-        let sum = [*a, *b, *c].iter().fold(Vector3::ZERO, |s, i| {
-            s + (mesh.positions[*i as usize] - Point3::ZERO)
-        });
+        let sum =
+            [*a, *b, *c].iter().fold(Vector3::ZERO, |s, i| s + (mesh.positions[*i as usize] - Point3::ZERO));
         let middle = Point3::ZERO + sum * (1.0 / 3.0);
         let mut ray = Ray::new(middle, Vector3::new(1.0, 0.0, 0.0));
         ray.o.x *= 0.99;
@@ -268,18 +174,11 @@ fn lopsided_scenes_stay_within_the_traversal_stack() {
 
 #[test]
 fn an_infinite_plane_is_found_behind_and_before_finite_things() {
-    let plane = Shape::Plane {
-        point: Point3::new(0.0, -1.0, 0.0),
-        normal: [0.0, 1.0, 0.0].into(),
-    };
-    let ball = Shape::Sphere {
-        center: Point3::ZERO,
-        radius: 0.5,
-    };
+    let plane = Shape::Plane { point: Point3::new(0.0, -1.0, 0.0), normal: [0.0, 1.0, 0.0].into() };
+    let ball = Shape::Sphere { center: Point3::ZERO, radius: 0.5 };
     let tilt = Transform::from_f64(&DAffine3::from_rotation_z(0.1));
-    for (engine, placement) in ENGINES
-        .into_iter()
-        .flat_map(|e| [Placement::Identity, Placement::Still(tilt)].map(|p| (e, p)))
+    for (engine, placement) in
+        ENGINES.into_iter().flat_map(|e| [Placement::Identity, Placement::Still(tilt)].map(|p| (e, p)))
     {
         let mut b = builder(engine);
         let id = b.user(vec![plane.bounds(), ball.bounds()]).expect("valid boxes");
@@ -287,16 +186,9 @@ fn an_infinite_plane_is_found_behind_and_before_finite_things() {
         let (accel, shapes) = (b.build(), Shapes(vec![vec![plane, ball]]));
         assert!(accel.bounds().is_finite(), "the finite part only");
         let mut nodes = (0..accel.stats().nodes as u32).filter_map(|n| accel.node_bounds(n));
-        assert!(
-            nodes.all(|n| n.bounds.is_finite()),
-            "infinite boxes would spoil the tree"
-        );
+        assert!(nodes.all(|n| n.bounds.is_finite()), "infinite boxes would spoil the tree");
         let down = |x: f32| Ray::new(Point3::new(x, 4.0, 0.0), Vector3::new(0.0, -1.0, 0.0));
-        let prim = |ray: &Ray| {
-            accel
-                .closest(ray, &shapes, &mut NoTraversalProbe, ())
-                .map(|h| h.prim)
-        };
+        let prim = |ray: &Ray| accel.closest(ray, &shapes, &mut NoTraversalProbe, ()).map(|h| h.prim);
         assert_eq!((prim(&down(0.0)), prim(&down(30.0))), (Some(1), Some(0)));
         let up = Ray::new(Point3::new(0.0, -4.0, 0.0), Vector3::new(0.0, 1.0, 0.0));
         assert_eq!(prim(&up), Some(0));
@@ -309,9 +201,7 @@ fn of_many_walls_in_a_row_only_the_first_few_are_tested() {
     let mut walls = Triangles::default();
     for i in 0..256u32 {
         let z = i as f32;
-        walls
-            .positions
-            .extend([[-1.0, -1.0, z], [3.0, -1.0, z], [-1.0, 3.0, z]].map(Point3::from));
+        walls.positions.extend([[-1.0, -1.0, z], [3.0, -1.0, z], [-1.0, 3.0, z]].map(Point3::from));
         walls.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
     let mut b = builder(Engine::Bvh);
@@ -349,15 +239,8 @@ fn probes_see_nodes_whose_boxes_the_ray_enters() {
     let accel = b.build();
     let nodes = accel.stats().nodes as u32;
     assert!((0..nodes).all(|n| accel.node_bounds(n).is_some()) && accel.node_bounds(nodes).is_none());
-    let leaves: u32 = (0..nodes)
-        .filter_map(|n| accel.node_bounds(n))
-        .map(|n| n.leaf_items)
-        .sum();
-    assert_eq!(
-        leaves,
-        320 + 2 + 2,
-        "every triangle and instance lies in one leaf"
-    );
+    let leaves: u32 = (0..nodes).filter_map(|n| accel.node_bounds(n)).map(|n| n.leaf_items).sum();
+    assert_eq!(leaves, 320 + 2 + 2, "every triangle and instance lies in one leaf");
     let mut random = Random(4);
     let mut seen = Visited::default();
     for i in 0..100 {
@@ -369,16 +252,10 @@ fn probes_see_nodes_whose_boxes_the_ray_enters() {
             let view = accel.node_bounds(*node).expect("a node");
             // A little larger, for this test's box arithmetic is another.
             let grown = Vector3::splat(1e-5);
-            let b = Bounds3 {
-                min: view.bounds.min - grown,
-                max: view.bounds.max + grown,
-            };
+            let b = Bounds3 { min: view.bounds.min - grown, max: view.bounds.max + grown };
             assert!(*id == i && b.entry(&ray, inverse).is_some(), "{ray:?} {view:?}");
         }
     }
     assert_eq!(accel.instance_geometry(1), floor);
-    assert_eq!(
-        accel.triangle(1, 1),
-        Some([0, 2, 3].map(|i: usize| square().positions[i]))
-    );
+    assert_eq!(accel.triangle(1, 1), Some([0, 2, 3].map(|i: usize| square().positions[i])));
 }

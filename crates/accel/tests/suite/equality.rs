@@ -23,11 +23,7 @@ fn mesh(random: &mut Random) -> Triangles {
     let on_grid = random.below(2) == 0;
     for _ in 0..vertices {
         let p = random.point(2.0);
-        mesh.positions.push(if on_grid {
-            Point3::new(p.x.round(), p.y.round(), p.z.round())
-        } else {
-            p
-        });
+        mesh.positions.push(if on_grid { Point3::new(p.x.round(), p.y.round(), p.z.round()) } else { p });
     }
     for _ in 0..random.below(80) {
         let triangle = match random.below(8) {
@@ -45,10 +41,8 @@ fn mesh(random: &mut Random) -> Triangles {
 }
 
 fn affine(random: &mut Random) -> DAffine3 {
-    let turn = DQuat::from_axis_angle(
-        random.direction().to_f64().normalize(),
-        random.between(0.0, 3.0).into(),
-    );
+    let turn =
+        DQuat::from_axis_angle(random.direction().to_f64().normalize(), random.between(0.0, 3.0).into());
     let scale = DVec3::new(
         random.between(0.3, 1.5).into(),
         random.between(-1.5, -0.3).into(),
@@ -59,27 +53,15 @@ fn affine(random: &mut Random) -> DAffine3 {
 
 fn recipe(random: &mut Random) -> Recipe {
     let meshes: Vec<_> = (0..2).map(|_| mesh(random)).collect();
-    let sphere = |random: &mut Random| Shape::Sphere {
-        center: random.point(2.0),
-        radius: random.between(0.05, 0.8),
-    };
+    let sphere =
+        |random: &mut Random| Shape::Sphere { center: random.point(2.0), radius: random.between(0.05, 0.8) };
     let mut balls: Vec<_> = (0..8).map(|_| sphere(random)).collect();
     balls.push(balls[0]);
-    let plane = Shape::Plane {
-        point: random.point(3.0),
-        normal: Normal3::new(0.0, 1.0, 0.0),
-    };
-    let tilted = Shape::Plane {
-        point: random.point(3.0),
-        normal: random.direction().into(),
-    };
+    let plane = Shape::Plane { point: random.point(3.0), normal: Normal3::new(0.0, 1.0, 0.0) };
+    let tilted = Shape::Plane { point: random.point(3.0), normal: random.direction().into() };
     let shapes = vec![balls, vec![plane, sphere(random), tilted, plane]];
     let still = affine(random);
-    let moving = Motion::keyed(vec![
-        (0.0, affine(random)),
-        (0.4, affine(random)),
-        (1.0, affine(random)),
-    ]);
+    let moving = Motion::keyed(vec![(0.0, affine(random)), (0.4, affine(random)), (1.0, affine(random))]);
     let moving = Placement::from_motion(&moving.expect("valid keys"));
     let shift = Transform::from_f64(&DAffine3::from_translation(random.point(2.0).to_f64()));
     let instances = vec![
@@ -94,28 +76,19 @@ fn recipe(random: &mut Random) -> Recipe {
         (1, Placement::Still(Transform::from_f64(&still))),
     ];
     let landmarks = meshes.iter().flat_map(|m| m.positions.iter().copied()).collect();
-    Recipe {
-        meshes,
-        shapes,
-        instances,
-        landmarks,
-    }
+    Recipe { meshes, shapes, instances, landmarks }
 }
 
 fn build(recipe: &Recipe, options: BuildOptions) -> Accel {
     let mut builder = AccelBuilder::new(options);
     let meshes = recipe.meshes.iter().cloned();
-    let mut ids: Vec<_> = meshes
-        .map(|m| builder.triangles(m).expect("valid mesh"))
-        .collect();
+    let mut ids: Vec<_> = meshes.map(|m| builder.triangles(m).expect("valid mesh")).collect();
     for list in &recipe.shapes {
         let boxes = list.iter().map(Shape::bounds).collect();
         ids.push(builder.user(boxes).expect("valid boxes"));
     }
     for (index, (geometry, placement)) in recipe.instances.iter().enumerate() {
-        let added = builder
-            .instance(ids[*geometry], placement.clone())
-            .expect("valid placement");
+        let added = builder.instance(ids[*geometry], placement.clone()).expect("valid placement");
         assert_eq!(added as usize, index);
     }
     builder.build()
@@ -123,19 +96,12 @@ fn build(recipe: &Recipe, options: BuildOptions) -> Accel {
 
 impl Recipe {
     fn shapes(&self) -> Shapes {
-        let of = |g: usize| {
-            g.checked_sub(self.meshes.len())
-                .map_or(Vec::new(), |i| self.shapes[i].clone())
-        };
+        let of = |g: usize| g.checked_sub(self.meshes.len()).map_or(Vec::new(), |i| self.shapes[i].clone());
         Shapes(self.instances.iter().map(|(g, _)| of(*g)).collect())
     }
     fn primitives(&self) -> usize {
-        let sizes: Vec<_> = self
-            .meshes
-            .iter()
-            .map(|m| m.indices.len())
-            .chain(self.shapes.iter().map(Vec::len))
-            .collect();
+        let sizes: Vec<_> =
+            self.meshes.iter().map(|m| m.indices.len()).chain(self.shapes.iter().map(Vec::len)).collect();
         self.instances.iter().map(|(g, _)| sizes[*g]).sum()
     }
 }
@@ -148,11 +114,7 @@ fn assert_equal(tree: &Accel, brute: &Accel, shapes: &Shapes, ray: &Ray) -> Opti
     assert_eq!(got.map(bits), expected.map(bits), "{ray:?} {got:?} {expected:?}");
     let shadow = tree.any(ray, shapes, &mut NoTraversalProbe, ());
     assert_eq!(shadow, expected.is_some(), "{ray:?} {expected:?}");
-    assert_eq!(
-        brute.any(ray, shapes, &mut NoTraversalProbe, ()),
-        shadow,
-        "{ray:?}"
-    );
+    assert_eq!(brute.any(ray, shapes, &mut NoTraversalProbe, ()), shadow, "{ray:?}");
     got
 }
 
@@ -165,20 +127,8 @@ fn the_tree_finds_the_hits_of_brute_force() {
         let recipe = recipe(&mut random);
         let shapes = recipe.shapes();
         let leaf_max = 1 + (scene % 8) as u32;
-        let tree = build(
-            &recipe,
-            BuildOptions {
-                leaf_max,
-                ..BuildOptions::default()
-            },
-        );
-        let brute = build(
-            &recipe,
-            BuildOptions {
-                engine: Engine::BruteForce,
-                ..BuildOptions::default()
-            },
-        );
+        let tree = build(&recipe, BuildOptions { leaf_max, ..BuildOptions::default() });
+        let brute = build(&recipe, BuildOptions { engine: Engine::BruteForce, ..BuildOptions::default() });
         for _ in 0..ray_count(200_000) / scenes as usize {
             let ray = random.ray(5.0, &recipe.landmarks);
             let got = assert_equal(&tree, &brute, &shapes, &ray);
@@ -212,13 +162,7 @@ fn of_coincident_primitives_the_first_is_hit() {
 fn brute_force_tests_every_primitive_with_every_ray() {
     let mut random = Random(3);
     let recipe = recipe(&mut random);
-    let brute = build(
-        &recipe,
-        BuildOptions {
-            engine: Engine::BruteForce,
-            ..BuildOptions::default()
-        },
-    );
+    let brute = build(&recipe, BuildOptions { engine: Engine::BruteForce, ..BuildOptions::default() });
     let tree = build(&recipe, BuildOptions::default());
     let shapes = recipe.shapes();
     let (mut all, mut walked) = (TraversalCounts::default(), TraversalCounts::default());
@@ -234,17 +178,8 @@ fn brute_force_tests_every_primitive_with_every_ray() {
         tree.closest(&ray, &shapes, &mut walked, ());
         tree.any(&ray, &shapes, &mut walked, ());
     }
-    assert_eq!(
-        all,
-        TraversalCounts {
-            nodes: 0,
-            primitives: 2 * rays * recipe.primitives() as u64
-        }
-    );
-    assert!(
-        walked.primitives * 4 < all.primitives && walked.nodes > 0,
-        "{walked:?} {all:?}"
-    );
+    assert_eq!(all, TraversalCounts { nodes: 0, primitives: 2 * rays * recipe.primitives() as u64 });
+    assert!(walked.primitives * 4 < all.primitives && walked.nodes > 0, "{walked:?} {all:?}");
 }
 
 #[test]
@@ -254,11 +189,7 @@ fn shapes_that_stick_out_of_their_boxes_are_hit_alike() {
     let mut random = Random(31);
     for scene in 0..20 {
         let ball = |random: &mut Random| Shape::Sphere {
-            center: Point3::new(
-                random.below(3) as f32,
-                random.below(3) as f32,
-                random.below(3) as f32,
-            ),
+            center: Point3::new(random.below(3) as f32, random.below(3) as f32, random.below(3) as f32),
             radius: 0.4 + 0.2 * random.below(3) as f32,
         };
         let balls: Vec<_> = (0..30).map(|_| ball(&mut random)).collect();
@@ -267,29 +198,17 @@ fn shapes_that_stick_out_of_their_boxes_are_hit_alike() {
             Bounds3::new(b.center() - b.diagonal() * 0.3, b.center() + b.diagonal() * 0.3)
         };
         let build = |engine| {
-            let options = BuildOptions {
-                engine,
-                leaf_max: 1,
-                ..BuildOptions::default()
-            };
+            let options = BuildOptions { engine, leaf_max: 1, ..BuildOptions::default() };
             let mut builder = AccelBuilder::new(options);
-            let id = builder
-                .user(balls.iter().map(shrunk).collect())
-                .expect("valid boxes");
-            builder
-                .instance(id, Placement::Identity)
-                .expect("valid placement");
+            let id = builder.user(balls.iter().map(shrunk).collect()).expect("valid boxes");
+            builder.instance(id, Placement::Identity).expect("valid placement");
             builder.build()
         };
         let (tree, brute) = (build(Engine::Bvh), build(Engine::BruteForce));
         let shapes = Shapes(vec![balls.clone()]);
         for _ in 0..1000 {
             let mut ray = random.ray(4.0, &[Point3::splat(1.0), Point3::new(0.0, 1.0, 2.0)]);
-            ray.t_max = if scene % 2 == 0 {
-                f32::INFINITY
-            } else {
-                random.between(0.1, 2.0)
-            };
+            ray.t_max = if scene % 2 == 0 { f32::INFINITY } else { random.between(0.1, 2.0) };
             assert_equal(&tree, &brute, &shapes, &ray);
         }
     }
@@ -302,11 +221,7 @@ fn instances_far_away_or_squashed_are_hit_alike() {
     for scene in 0..20 {
         let squash = if scene % 2 == 0 { 1.0 } else { 1e-4 };
         let meshes: Vec<_> = (0..3).map(|_| mesh(&mut random)).collect();
-        let far = if scene % 2 == 0 {
-            DVec3::new(3e5, -1e5, 2e5)
-        } else {
-            DVec3::new(3.0, 4.0, -5.0)
-        };
+        let far = if scene % 2 == 0 { DVec3::new(3e5, -1e5, 2e5) } else { DVec3::new(3.0, 4.0, -5.0) };
         let placements: Vec<_> = (0..8)
             .map(|_| {
                 let turn = DQuat::from_axis_angle(random.direction().to_f64().normalize(), 1.0);
@@ -318,19 +233,12 @@ fn instances_far_away_or_squashed_are_hit_alike() {
             })
             .collect();
         let build = |engine| {
-            let mut builder = AccelBuilder::new(BuildOptions {
-                engine,
-                leaf_max: 1,
-                ..BuildOptions::default()
-            });
-            let ids: Vec<_> = meshes
-                .iter()
-                .map(|m| builder.triangles(m.clone()).expect("valid mesh"))
-                .collect();
+            let mut builder =
+                AccelBuilder::new(BuildOptions { engine, leaf_max: 1, ..BuildOptions::default() });
+            let ids: Vec<_> =
+                meshes.iter().map(|m| builder.triangles(m.clone()).expect("valid mesh")).collect();
             for (i, placement) in placements.iter().enumerate() {
-                builder
-                    .instance(ids[i % 3], placement.clone())
-                    .expect("valid placement");
+                builder.instance(ids[i % 3], placement.clone()).expect("valid placement");
             }
             builder.build()
         };
@@ -340,11 +248,7 @@ fn instances_far_away_or_squashed_are_hit_alike() {
             let (mut from, mut d) = (random.point(3.0) - Point3::ZERO, random.direction());
             (from.y, d.y) = (from.y * squash as f32, d.y * squash as f32);
             let mut ray = Ray::new(center + from, d);
-            ray.t_max = if random.below(2) == 0 {
-                f32::INFINITY
-            } else {
-                random.between(0.0, 3.0)
-            };
+            ray.t_max = if random.below(2) == 0 { f32::INFINITY } else { random.between(0.0, 3.0) };
             assert_equal(&tree, &brute, &Shapes::default(), &ray);
         }
     }

@@ -50,13 +50,7 @@ pub(crate) fn icosphere(levels: u32) -> Triangles {
 
 /// The mesh scaled, then shifted, in f32.
 pub(crate) fn moved(mesh: &Triangles, scale: f32, shift: Vector3) -> Triangles {
-    let positions = mesh
-        .positions
-        .iter()
-        .map(|p| Point3::ZERO + (*p - Point3::ZERO) * scale + shift)
-        .collect();
-    Triangles {
-        positions,
-        indices: mesh.indices.clone(),
-    }
+    let positions =
+        mesh.positions.iter().map(|p| Point3::ZERO + (*p - Point3::ZERO) * scale + shift).collect();
+    Triangles { positions, indices: mesh.indices.clone() }
 }

@@ -16,23 +16,15 @@ fn instances_and_baked_meshes_are_hit_alike() {
     let mesh = icosphere(3);
     let (mut compared, mut rays) = (0, 0);
     for _ in 0..10 {
-        let turn = DQuat::from_axis_angle(
-            random.direction().to_f64().normalize(),
-            random.between(0.0, 3.0).into(),
-        );
+        let turn =
+            DQuat::from_axis_angle(random.direction().to_f64().normalize(), random.between(0.0, 3.0).into());
         let scale = f64::from(random.between(0.5, 4.0));
         let affine =
             DAffine3::from_scale_rotation_translation(DVec3::splat(scale), turn, random.point(5.0).to_f64());
         let map = Transform::from_f64(&affine);
-        let positions = mesh
-            .positions
-            .iter()
-            .map(|p| Point3::from_f64(affine.transform_point3(p.to_f64())))
-            .collect();
-        let baked = Triangles {
-            positions,
-            indices: mesh.indices.clone(),
-        };
+        let positions =
+            mesh.positions.iter().map(|p| Point3::from_f64(affine.transform_point3(p.to_f64()))).collect();
+        let baked = Triangles { positions, indices: mesh.indices.clone() };
         let build = |mesh: &Triangles, placement: Placement| {
             let mut builder = AccelBuilder::new(BuildOptions::default());
             let id = builder.triangles(mesh.clone()).expect("valid mesh");
@@ -76,17 +68,12 @@ fn a_moving_instance_is_met_where_it_is_at_the_time_of_the_ray() {
     let mut builder = AccelBuilder::new(BuildOptions::default());
     let id = builder.triangles(icosphere(2)).expect("valid mesh");
     let at = |x: f64| Transform::from_f64(&DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)));
-    builder
-        .instance(id, Placement::Moving(vec![(0.0, at(0.0)), (1.0, at(10.0))]))
-        .expect("valid placement");
+    builder.instance(id, Placement::Moving(vec![(0.0, at(0.0)), (1.0, at(10.0))])).expect("valid placement");
     let accel = builder.build();
     for (time, x) in [(-1.0, 0.0), (0.0, 0.0), (0.25, 2.5), (1.0, 10.0), (4.0, 10.0)] {
         for (offset, expected) in [(0.9, true), (-0.9, true), (1.1, false), (-1.1, false)] {
             let o = Point3::new(x + offset, 0.0, -5.0);
-            let ray = Ray {
-                time,
-                ..Ray::new(o, [0.0, 0.0, 1.0].into())
-            };
+            let ray = Ray { time, ..Ray::new(o, [0.0, 0.0, 1.0].into()) };
             assert_eq!(
                 accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()),
                 expected,
@@ -97,8 +84,5 @@ fn a_moving_instance_is_met_where_it_is_at_the_time_of_the_ray() {
         assert!((map.point(Point3::ZERO) - Point3::new(x, 0.0, 0.0)).length() < 1e-6);
     }
     let b = accel.bounds();
-    assert!(
-        b.min.x < -0.99 && b.min.x > -1.01 && b.max.x > 10.99 && b.max.x < 11.01,
-        "{b:?}"
-    );
+    assert!(b.min.x < -0.99 && b.min.x > -1.01 && b.max.x > 10.99 && b.max.x < 11.01, "{b:?}");
 }

@@ -7,29 +7,17 @@ use proptest::prelude::*;
 
 /// Small integers make degenerate, coincident and axis-aligned things likely.
 fn coordinate() -> impl Strategy<Value = f32> {
-    prop_oneof![
-        (-3i32..=3).prop_map(|i| i as f32),
-        -3.0f32..3.0,
-        Just(-0.0),
-        Just(1e-30),
-        Just(1e6)
-    ]
+    prop_oneof![(-3i32..=3).prop_map(|i| i as f32), -3.0f32..3.0, Just(-0.0), Just(1e-30), Just(1e6)]
 }
 fn triple() -> impl Strategy<Value = [f32; 3]> {
     [coordinate(), coordinate(), coordinate()]
 }
 fn mesh() -> impl Strategy<Value = Triangles> {
-    (
-        prop::collection::vec(triple(), 3..12),
-        prop::collection::vec([0usize..12, 0..12, 0..12], 0..24),
-    )
+    (prop::collection::vec(triple(), 3..12), prop::collection::vec([0usize..12, 0..12, 0..12], 0..24))
         .prop_map(|(positions, indices)| {
             let n = positions.len();
             let indices = indices.into_iter().map(|t| t.map(|i| (i % n) as u32)).collect();
-            Triangles {
-                positions: positions.into_iter().map(Point3::from).collect(),
-                indices,
-            }
+            Triangles { positions: positions.into_iter().map(Point3::from).collect(), indices }
         })
 }
 

@@ -27,11 +27,7 @@ fn area_ratios(ray: &Ray, t: &[Point3; 3]) -> (f64, [f64; 3], f64) {
     let p = o + d * distance;
     let area =
         |u: durer_core::glam::DVec3, v: durer_core::glam::DVec3| n.dot((u - p).cross(v - p)) / n.dot(n);
-    (
-        distance,
-        [area(b, c), area(c, a), area(a, b)],
-        n.dot(d).abs() / (n.length() * d.length()),
-    )
+    (distance, [area(b, c), area(c, a), area(a, b)], n.dot(d).abs() / (n.length() * d.length()))
 }
 
 #[test]
@@ -68,20 +64,11 @@ fn cramer_area_ratios_and_watertight_agree() {
         assert!((sum - 1.0).abs() < 2e-6, "{sum}");
         assert!(hit.weights.iter().all(|w| (0.0..=1.0).contains(w)));
         let close = |x: f32, y: f64, tolerance: f64| (f64::from(x) - y).abs() < tolerance;
-        assert!(
-            close(hit.t, distance, 2e-5) && close(lt, distance, 1e-4),
-            "{hit:?} {lt} {distance}"
-        );
-        assert!(
-            (0..3).all(|i| close(hit.weights[i], exact[i], 1e-4)),
-            "{hit:?} {exact:?}"
-        );
+        assert!(close(hit.t, distance, 2e-5) && close(lt, distance, 1e-4), "{hit:?} {lt} {distance}");
+        assert!((0..3).all(|i| close(hit.weights[i], exact[i], 1e-4)), "{hit:?} {exact:?}");
         assert!(close(beta, exact[1], 1e-4) && close(gamma, exact[2], 1e-4));
     }
-    assert!(
-        inside > rays / 5 && near_edge < rays / 100,
-        "{inside} inside, {near_edge} near an edge"
-    );
+    assert!(inside > rays / 5 && near_edge < rays / 100, "{inside} inside, {near_edge} near an edge");
 }
 
 #[test]
@@ -91,25 +78,15 @@ fn weights_sum_to_one_on_edges_and_vertices() {
     for _ in 0..20_000 {
         let t = triangle(&mut random);
         let o = random.point(3.0);
-        let aim = if random.below(2) == 0 {
-            t[random.below(3)]
-        } else {
-            t[0] + (t[1] - t[0]) * 0.5
-        };
+        let aim = if random.below(2) == 0 { t[random.below(3)] } else { t[0] + (t[1] - t[0]) * 0.5 };
         let ray = Ray::new(o, aim - o);
-        let Some(TriangleHit { weights, .. }) = intersect(
-            &Shear::new(&ray).expect("valid direction"),
-            &t,
-            0.0,
-            f32::INFINITY,
-        ) else {
+        let Some(TriangleHit { weights, .. }) =
+            intersect(&Shear::new(&ray).expect("valid direction"), &t, 0.0, f32::INFINITY)
+        else {
             continue;
         };
         hits += 1;
-        assert!(
-            (weights.iter().map(|w| f64::from(*w)).sum::<f64>() - 1.0).abs() < 2e-6,
-            "{weights:?}"
-        );
+        assert!((weights.iter().map(|w| f64::from(*w)).sum::<f64>() - 1.0).abs() < 2e-6, "{weights:?}");
     }
     assert!(hits > 5_000, "{hits}");
 }
@@ -122,11 +99,7 @@ fn rays_that_start_on_a_triangle_do_not_meet_it_at_zero() {
             // The plane z = 0 holds the origin exactly; every direction leaves it, many at a grazing angle.
             let flat = [[-1.0, -1.0, 0.0], [2.0, -1.0, 0.0], [-1.0, 2.0, 0.0]]
                 .map(|p| Point3::new(p[0] * scale, p[1] * scale, p[2] * scale));
-            let o = Point3::new(
-                random.between(-0.9, 0.4) * scale,
-                random.between(-0.9, 0.4) * scale,
-                0.0,
-            );
+            let o = Point3::new(random.between(-0.9, 0.4) * scale, random.between(-0.9, 0.4) * scale, 0.0);
             let mut d = random.direction();
             d.z *= [1.0, 1e-3, 1e-6][random.below(3)];
             let shear = Shear::new(&Ray::new(o, d)).expect("valid direction");
@@ -169,11 +142,7 @@ fn offset_origins_on_tilted_triangles_never_hit_them_again() {
             }
             let o = error::offset_ray_origin(p, e, n, w);
             let shear = Shear::new(&Ray::new(o, w)).expect("valid direction");
-            assert_eq!(
-                intersect(&shear, &t, 0.0, f32::INFINITY),
-                None,
-                "{t:?} {o:?} {w:?}"
-            );
+            assert_eq!(intersect(&shear, &t, 0.0, f32::INFINITY), None, "{t:?} {o:?} {w:?}");
         }
     }
 }
@@ -199,13 +168,8 @@ fn coordinates_whose_products_overflow_or_vanish_are_hit() {
         let t = [[-1.0, -1.0, 1.0], [2.0, -1.0, 1.0], [-1.0, 2.0, 1.0]]
             .map(|p| Point3::new(p[0] * scale, p[1] * scale, p[2] * scale));
         let ray = Ray::new(Point3::ZERO, Vector3::new(0.1, 0.0, 1.0));
-        let hit = intersect(
-            &Shear::new(&ray).expect("valid direction"),
-            &t,
-            0.0,
-            f32::INFINITY,
-        )
-        .expect("hits");
+        let hit =
+            intersect(&Shear::new(&ray).expect("valid direction"), &t, 0.0, f32::INFINITY).expect("hits");
         assert!((hit.t / scale - 1.0).abs() < 1e-5, "{hit:?} at {scale}");
     }
 }

@@ -38,19 +38,10 @@ fn assert_closed(
         // Twice the radius away on the same side: incidence stays below 60 degrees.
         let outside = aim + (aim - center) * 2.0 + random.direction() * scale;
         for o in [inside, outside] {
-            let ray = Ray {
-                time: random.unit(),
-                ..Ray::new(o, aim - o)
-            };
+            let ray = Ray { time: random.unit(), ..Ray::new(o, aim - o) };
             let hit = accel.closest(&ray, &NoUserGeometry, &mut NoTraversalProbe, ());
-            assert!(
-                hit.is_some_and(|h| (h.t - 1.0).abs() < 0.05),
-                "leak: {ray:?} {hit:?}"
-            );
-            assert!(
-                accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()),
-                "leak: {ray:?}"
-            );
+            assert!(hit.is_some_and(|h| (h.t - 1.0).abs() < 0.05), "leak: {ray:?} {hit:?}");
+            assert!(accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()), "leak: {ray:?}");
         }
     }
 }
@@ -59,13 +50,7 @@ fn assert_closed(
 fn no_ray_leaves_a_closed_mesh() {
     let mesh = icosphere(3);
     let accel = build(&mesh, Placement::Identity);
-    assert_closed(
-        &accel,
-        &mesh.positions,
-        &mesh,
-        (Point3::ZERO, 1.0),
-        ray_count(50_000),
-    );
+    assert_closed(&accel, &mesh.positions, &mesh, (Point3::ZERO, 1.0), ray_count(50_000));
 }
 
 #[test]
@@ -75,13 +60,7 @@ fn no_ray_leaves_a_closed_mesh_at_any_scale() {
         let shift = Vector3::new(shift, -0.3 * shift, 0.7 * shift);
         let there = moved(&mesh, scale, shift);
         let accel = build(&there, Placement::Identity);
-        assert_closed(
-            &accel,
-            &there.positions,
-            &mesh,
-            (Point3::ZERO + shift, scale),
-            10_000,
-        );
+        assert_closed(&accel, &there.positions, &mesh, (Point3::ZERO + shift, scale), 10_000);
     }
 }
 
@@ -94,13 +73,7 @@ fn no_ray_leaves_a_placed_mesh() {
     let map = Transform::from_f64(&affine);
     let targets: Vec<_> = mesh.positions.iter().map(|p| map.point(*p)).collect();
     let center = map.point(Point3::ZERO);
-    assert_closed(
-        &build(&mesh, Placement::Still(map)),
-        &targets,
-        &mesh,
-        (center, 3.0),
-        20_000,
-    );
+    assert_closed(&build(&mesh, Placement::Still(map)), &targets, &mesh, (center, 3.0), 20_000);
     // Spinning about its centre it stays a sphere: never a hole, at any moment.
     let spun = affine * DAffine3::from_rotation_y(2.5);
     let motion = Motion::keyed(vec![(0.0, affine), (1.0, spun)]).expect("valid keys");

@@ -14,8 +14,7 @@ pub struct Bounds3 {
 
 impl Bounds3 {
     /// Contains nothing; the neutral element of `union`.
-    pub const EMPTY: Self =
-        Self { min: Point3::splat(f32::INFINITY), max: Point3::splat(f32::NEG_INFINITY) };
+    pub const EMPTY: Self = Self { min: Point3::splat(f32::INFINITY), max: Point3::splat(f32::NEG_INFINITY) };
     /// All of space: the bounds of an infinite plane.
     pub const UNBOUNDED: Self =
         Self { min: Point3::splat(f32::NEG_INFINITY), max: Point3::splat(f32::INFINITY) };

@@ -1,6 +1,6 @@
 //! Image files: pixels in ([`read`], by content, whatever the suffix says) and pictures out ([`writer_for`]).
 //!
-//! A new format in is a line in [`SIGNATURES`]; a new format out is a line in [`WRITERS`].
+//! A new format in is a line in `SIGNATURES`; a new format out is a line in [`WRITERS`].
 
 mod exr;
 mod jpeg;
@@ -26,21 +26,11 @@ struct Signature {
 }
 
 const fn known(bytes: &'static [u8], name: &'static str, decode: Decoder) -> Signature {
-    Signature {
-        bytes,
-        offset: 0,
-        name,
-        decode: Some(decode),
-    }
+    Signature { bytes, offset: 0, name, decode: Some(decode) }
 }
 
 const fn foreign(bytes: &'static [u8], offset: usize, name: &'static str) -> Signature {
-    Signature {
-        bytes,
-        offset,
-        name,
-        decode: None,
-    }
+    Signature { bytes, offset, name, decode: None }
 }
 
 /// Formats by their first bytes.
@@ -72,16 +62,10 @@ struct Source<'a> {
 
 impl Source<'_> {
     fn format_error(&self, reason: impl ToString) -> AssetError {
-        AssetError::Format {
-            path: self.name.to_owned(),
-            reason: reason.to_string(),
-        }
+        AssetError::Format { path: self.name.to_owned(), reason: reason.to_string() }
     }
     fn unsupported(&self, reason: impl Into<String>) -> AssetError {
-        AssetError::Unsupported {
-            path: self.name.to_owned(),
-            reason: reason.into(),
-        }
+        AssetError::Unsupported { path: self.name.to_owned(), reason: reason.into() }
     }
     /// Complains about a header that promises nothing or too much. No compression we read shrinks the `sample_bytes`
     /// of decoded data by more than `ratio`, so a short file that promises more is damaged: nothing is allocated.
@@ -91,22 +75,13 @@ impl Source<'_> {
         }
         let pixels = width.saturating_mul(height);
         if pixels > self.limits.image_pixels {
-            let reason = format!(
-                "{width} x {height} pixels, but the limit is {}",
-                self.limits.image_pixels
-            );
-            return Err(AssetError::Limits {
-                path: self.name.to_owned(),
-                reason,
-            });
+            let reason = format!("{width} x {height} pixels, but the limit is {}", self.limits.image_pixels);
+            return Err(AssetError::Limits { path: self.name.to_owned(), reason });
         }
         const HARMLESS: u64 = 16 << 20;
         let most = (self.bytes.len() as u64).saturating_mul(ratio).max(HARMLESS);
         if pixels.saturating_mul(sample_bytes) > most {
-            let reason = format!(
-                "{width} x {height} pixels cannot be stored in {} bytes",
-                self.bytes.len()
-            );
+            let reason = format!("{width} x {height} pixels cannot be stored in {} bytes", self.bytes.len());
             return Err(self.format_error(reason));
         }
         Ok(())
@@ -122,9 +97,7 @@ pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetErro
     let starts = |s: &&Signature| bytes.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
     const READ: &str = "durer reads PNG, JPEG and OpenEXR images";
     match SIGNATURES.iter().find(starts) {
-        Some(Signature {
-            decode: Some(decode), ..
-        }) => decode(&source),
+        Some(Signature { decode: Some(decode), .. }) => decode(&source),
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),
         None if bytes.is_empty() => Err(source.format_error("the file is empty")),
         // Targa files have no signature; only the name gives them away.

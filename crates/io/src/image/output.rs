@@ -13,10 +13,7 @@ pub struct WriteError {
 
 impl WriteError {
     pub(super) fn new(path: &Path, reason: impl ToString) -> Self {
-        Self {
-            path: path.display().to_string(),
-            reason: reason.to_string(),
-        }
+        Self { path: path.display().to_string(), reason: reason.to_string() }
     }
 }
 
@@ -42,16 +39,8 @@ pub struct Writer {
 
 /// The formats we write.
 pub const WRITERS: &[Writer] = &[
-    Writer {
-        name: "PNG",
-        suffixes: &["png"],
-        format: PictureFormat::Png,
-    },
-    Writer {
-        name: "OpenEXR",
-        suffixes: &["exr"],
-        format: PictureFormat::Exr,
-    },
+    Writer { name: "PNG", suffixes: &["png"], format: PictureFormat::Png },
+    Writer { name: "OpenEXR", suffixes: &["exr"], format: PictureFormat::Exr },
 ];
 
 /// The format that the suffix of `path` names, in any letter case.
@@ -59,29 +48,12 @@ pub const WRITERS: &[Writer] = &[
 /// # Errors
 /// If it names none; the error lists those we write.
 pub fn writer_for(path: &Path) -> Result<&'static Writer, WriteError> {
-    let suffix = path
-        .extension()
-        .map(|s| s.to_string_lossy().to_lowercase())
-        .unwrap_or_default();
-    WRITERS
-        .iter()
-        .find(|w| w.suffixes.contains(&suffix.as_str()))
-        .ok_or_else(|| {
-            let known: Vec<String> = WRITERS
-                .iter()
-                .flat_map(|w| w.suffixes)
-                .map(|s| format!(".{s}"))
-                .collect();
-            let found = if suffix.is_empty() {
-                "no suffix".to_owned()
-            } else {
-                format!("\".{suffix}\"")
-            };
-            WriteError::new(
-                path,
-                format!("{found} names no picture format; use one of {}", known.join(", ")),
-            )
-        })
+    let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
+    WRITERS.iter().find(|w| w.suffixes.contains(&suffix.as_str())).ok_or_else(|| {
+        let known: Vec<String> = WRITERS.iter().flat_map(|w| w.suffixes).map(|s| format!(".{s}")).collect();
+        let found = if suffix.is_empty() { "no suffix".to_owned() } else { format!("\".{suffix}\"") };
+        WriteError::new(path, format!("{found} names no picture format; use one of {}", known.join(", ")))
+    })
 }
 
 /// Complains unless `found` is `width * height * channels` and more than nothing.
@@ -89,8 +61,7 @@ pub(super) fn check_length(
     path: &Path,
     what: &str,
     found: usize,
-    width: u32,
-    height: u32,
+    [width, height]: [u32; 2],
     channels: u64,
 ) -> Result<(), WriteError> {
     let wanted = u64::from(width) * u64::from(height) * channels;

@@ -24,9 +24,7 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     // A palette of 1 bit per pixel expands to 4 bytes: 32 times.
     source.check_size(width.into(), height.into(), 1, 32 * BEST_RATIO)?;
     let mut reader = decoder.read_info().map_err(fail)?;
-    let size = reader
-        .output_buffer_size()
-        .ok_or_else(|| source.format_error("PNG too large"))?;
+    let size = reader.output_buffer_size().ok_or_else(|| source.format_error("PNG too large"))?;
     let mut bytes = vec![0; size];
     let frame = reader.next_frame(&mut bytes).map_err(fail)?;
     bytes.truncate(frame.buffer_size());
@@ -38,22 +36,12 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
         ColorType::Indexed => return Err(source.format_error("damaged PNG: no palette")),
     };
     let data = match frame.bit_depth {
-        BitDepth::Sixteen => ImageData::U16(
-            bytes
-                .as_chunks::<2>()
-                .0
-                .iter()
-                .map(|&pair| u16::from_be_bytes(pair))
-                .collect(),
-        ),
+        BitDepth::Sixteen => {
+            ImageData::U16(bytes.as_chunks::<2>().0.iter().map(|&pair| u16::from_be_bytes(pair)).collect())
+        }
         _ => ImageData::U8(bytes),
     };
-    Ok(Image {
-        width,
-        height,
-        channels,
-        data,
-    })
+    Ok(Image { width, height, channels, data })
 }
 
 /// Writes an 8-bit RGB picture with an sRGB chunk. `rgb8` holds rows from top to bottom.
@@ -61,7 +49,7 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
 /// # Errors
 /// If `rgb8` does not hold `3 * width * height` bytes, or the file cannot be written.
 pub fn write_png(path: &Path, width: u32, height: u32, rgb8: &[u8]) -> Result<(), WriteError> {
-    check_length(path, "rgb8", rgb8.len(), width, height, 3)?;
+    check_length(path, "rgb8", rgb8.len(), [width, height], 3)?;
     let fail = |e: png::EncodingError| WriteError::new(path, e);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);

@@ -62,8 +62,7 @@ pub fn open(path: &Path, limits: Limits) -> Imported {
     match FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())) {
         Some(format) => (format.read)(path, &mut imported),
         None => {
-            let known: Vec<_> =
-                FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
+            let known: Vec<_> = FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
             let message = format!("{}: not a scene format durer reads", path.display());
             imported
                 .diagnostics

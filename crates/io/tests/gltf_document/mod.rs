@@ -33,14 +33,8 @@ pub(crate) fn import_well(document: Value, bytes: &[u8]) -> Imported {
 
 /// Pointer and message of the first complaint of a severity.
 pub(crate) fn first(imported: &Imported, severity: Severity) -> (String, String) {
-    let found = imported
-        .diagnostics
-        .iter()
-        .find(|d| d.severity == severity)
-        .expect("a complaint");
-    let Location::Path { pointer, .. } = &found.at else {
-        panic!("no path")
-    };
+    let found = imported.diagnostics.iter().find(|d| d.severity == severity).expect("a complaint");
+    let Location::Path { pointer, .. } = &found.at else { panic!("no path") };
     (pointer.clone(), found.message.clone())
 }
 

@@ -69,23 +69,11 @@ impl Glossy {
     }
     pub(super) fn branch_weight(&self, wo: Vector3) -> Spectrum {
         let share = self.mirror_share() * self.scale;
-        if share == 0.0 {
-            Spectrum::BLACK
-        } else {
-            self.directional_albedo(wo) * share
-        }
+        if share == 0.0 { Spectrum::BLACK } else { self.directional_albedo(wo) * share }
     }
     pub(super) fn view(&self, wo: Vector3) -> Option<GlossyView> {
         let share = (1.0 - self.mirror_share()) * self.scale;
-        let weight = if share > 0.0 {
-            self.directional_albedo(wo) * share
-        } else {
-            Spectrum::BLACK
-        };
-        (!weight.is_black()).then(|| GlossyView {
-            wi: mirrored(wo),
-            weight,
-            alpha: self.alpha,
-        })
+        let weight = if share > 0.0 { self.directional_albedo(wo) * share } else { Spectrum::BLACK };
+        (!weight.is_black()).then(|| GlossyView { wi: mirrored(wo), weight, alpha: self.alpha })
     }
 }

@@ -41,10 +41,7 @@ impl Interface {
                 let f = fresnel_dielectric(wo.z.abs().min(1.0), eta);
                 (Spectrum::splat(f), Spectrum::splat(1.0 - f))
             }
-            Split::Constant {
-                reflection,
-                transmission,
-            } => (reflection, transmission),
+            Split::Constant { reflection, transmission } => (reflection, transmission),
         };
         branches.add(BranchKind::Reflection, mirrored(wo), reflection);
         match refracted {
@@ -59,10 +56,7 @@ impl Interface {
     pub(super) fn tint(&self) -> Spectrum {
         match self.split {
             Split::Fresnel => Spectrum::ONE,
-            Split::Constant {
-                reflection,
-                transmission,
-            } => reflection + transmission,
+            Split::Constant { reflection, transmission } => reflection + transmission,
         }
     }
 }

@@ -57,8 +57,7 @@ impl Bsdf {
     }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
-        self.lobes()
-            .fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
+        self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
     }
     /// Coefficient of the ambient term: diffuse albedo, or the ambient coefficient of a classic material.
     pub fn ambient(&self) -> Spectrum {
@@ -71,11 +70,7 @@ impl Bsdf {
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
-        own.unwrap_or_else(|| {
-            self.lobes()
-                .filter_map(diffuse)
-                .fold(Spectrum::BLACK, |a, b| a + b)
-        })
+        own.unwrap_or_else(|| self.lobes().filter_map(diffuse).fold(Spectrum::BLACK, |a, b| a + b))
     }
     /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
     /// one whose `alpha` is their weighted mean.
@@ -87,11 +82,7 @@ impl Bsdf {
         views.reduce(|a, b| {
             let (wa, wb) = (a.weight.mean(), b.weight.mean());
             let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
-            GlossyView {
-                wi: a.wi,
-                weight: a.weight + b.weight,
-                alpha,
-            }
+            GlossyView { wi: a.wi, weight: a.weight + b.weight, alpha }
         })
     }
     /// The perfectly sharp directions, and those of nearly smooth glossy lobes (see [`Glossy`]).
@@ -105,8 +96,6 @@ impl Bsdf {
     /// The surface's own colour as people would name it, at most 1: diffuse albedo plus the tint of what it reflects at
     /// normal incidence or transmits.
     pub fn albedo(&self) -> Spectrum {
-        self.lobes()
-            .fold(Spectrum::BLACK, |sum, lobe| sum + lobe.tint())
-            .map(|v| v.clamp(0.0, 1.0))
+        self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.tint()).map(|v| v.clamp(0.0, 1.0))
     }
 }

@@ -10,7 +10,10 @@ mod shutter;
 
 use std::fmt::Debug;
 
-use durer_core::math::{Point2, Ray};
+use durer_core::{
+    math::{Point2, Ray},
+    sampling::Sampler,
+};
 use durer_scene::Entry;
 
 pub use orthographic::Orthographic;
@@ -21,8 +24,9 @@ pub trait Camera: Debug + Send + Sync {
     /// Adapts the field of view to a picture of this many pixels; called once, before any ray is asked for.
     fn fit(&mut self, width: u32, height: u32);
     /// The ray through `film` (x right, y down, both in `[0, 1]` over the whole picture) in camera space, with a
-    /// direction of unit length. `lens` in `[0, 1)²` picks a point of the aperture.
-    fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray;
+    /// direction of unit length. `sampler` picks a point of the aperture,
+    /// if there is one.
+    fn ray(&self, film: Point2, time: f32, sampler: &Sampler) -> Ray;
 }
 
 /// All kinds of camera.

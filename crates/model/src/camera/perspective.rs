@@ -3,7 +3,10 @@
 //! Rays start at the origin and pass the image plane `z = 1` at `tan(fov / 2) (x, y)`, where `(x, y)` is the film
 //! position in the screen window (Physically Based Rendering, 4th edition, section 5.2.2). For a point at depth `z` seen at
 //! angle `a` from the axis the ray is `z / cos a` long.
-use durer_core::math::{Point2, Point3, Ray, Vector3, float};
+use durer_core::{
+    math::{Point2, Point3, Ray, Vector3, float},
+    sampling::Sampler,
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
@@ -24,13 +27,10 @@ impl Camera for Perspective {
     fn fit(&mut self, width: u32, height: u32) {
         self.screen.fit(width, height);
     }
-    fn ray(&self, film: Point2, _lens: Point2, time: f32) -> Ray {
+    fn ray(&self, film: Point2, time: f32, _sampler: &Sampler) -> Ray {
         let p = self.screen.at(film);
         let d = Vector3::new(p.x * self.half, p.y * self.half, 1.0).normalize();
-        Ray {
-            time,
-            ..Ray::new(Point3::ZERO, d)
-        }
+        Ray { time, ..Ray::new(Point3::ZERO, d) }
     }
 }
 
@@ -55,13 +55,9 @@ impl Kind for Perspective {
             ParamSpec::float("lensradius", 0.0, "Radius of the lens; only 0 is supported.")
                 .unit("m")
                 .range(0.0, f32::INFINITY),
-            ParamSpec::float(
-                "focaldistance",
-                1e6,
-                "Depth of the plane in focus; without effect.",
-            )
-            .unit("m")
-            .range(0.0, f32::INFINITY),
+            ParamSpec::float("focaldistance", 1e6, "Depth of the plane in focus; without effect.")
+                .unit("m")
+                .range(0.0, f32::INFINITY),
             SHUTTER_OPEN,
             SHUTTER_CLOSE,
         ],
@@ -69,16 +65,10 @@ impl Kind for Perspective {
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let fov = args.float("fov");
         if fov == 0.0 || fov == 180.0 {
-            args.error(
-                "fov",
-                format!("\"fov\" is {fov}, expected an angle between 0 and 180 deg"),
-            );
+            args.error("fov", format!("\"fov\" is {fov}, expected an angle between 0 and 180 deg"));
         }
         if args.float("lensradius") > 0.0 {
-            args.warning(
-                "lensradius",
-                "depth of field is not supported yet; everything will be in focus",
-            );
+            args.warning("lensradius", "depth of field is not supported yet; everything will be in focus");
         }
         let unit_axis = match args.text("fovaxis") {
             "x" => UnitAxis::X,
@@ -87,7 +77,6 @@ impl Kind for Perspective {
         };
         let screen = Screen::read(args, unit_axis);
         let half = float::tan(fov.to_radians() * 0.5);
-        args.is_sound()
-            .then(|| Box::new(Self { screen, half }) as Box<dyn Camera>)
+        args.is_sound().then(|| Box::new(Self { screen, half }) as Box<dyn Camera>)
     }
 }

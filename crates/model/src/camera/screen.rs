@@ -42,10 +42,7 @@ impl Screen {
             [] => None,
             [x0, x1, y0, y1] => {
                 if x0 == x1 || y0 == y1 {
-                    args.error(
-                        "screenwindow",
-                        "\"screenwindow\" is empty: xmin = xmax or ymin = ymax",
-                    );
+                    args.error("screenwindow", "\"screenwindow\" is empty: xmin = xmax or ymin = ymax");
                 }
                 Some([x0, x1, y0, y1])
             }
@@ -59,17 +56,9 @@ impl Screen {
         };
         let aspect = args.optional_float("frameaspectratio");
         if aspect == Some(0.0) {
-            args.error(
-                "frameaspectratio",
-                "\"frameaspectratio\" is 0, expected more than 0",
-            );
+            args.error("frameaspectratio", "\"frameaspectratio\" is 0, expected more than 0");
         }
-        let mut screen = Self {
-            fixed,
-            aspect,
-            unit_axis,
-            window: [0.0; 4],
-        };
+        let mut screen = Self { fixed, aspect, unit_axis, window: [0.0; 4] };
         screen.fit(1, 1);
         screen
     }
@@ -81,11 +70,7 @@ impl Screen {
             UnitAxis::X => false,
             UnitAxis::Y => true,
         };
-        let (x, y) = if is_y_unit {
-            (aspect, 1.0)
-        } else {
-            (1.0, 1.0 / aspect)
-        };
+        let (x, y) = if is_y_unit { (aspect, 1.0) } else { (1.0, 1.0 / aspect) };
         self.window = self.fixed.unwrap_or([-x, x, -y, y]);
     }
     /// The point of the image plane at a film position (x right, y down, in `[0, 1]`).

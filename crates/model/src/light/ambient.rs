@@ -1,6 +1,7 @@
 //! The constant `I_a` of the classic formula: light from nowhere that only the ambient term sees.
 use durer_core::{
-    math::{Normal3, Point2, Point3, Transform},
+    math::{Normal3, Point3, Transform},
+    sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
@@ -31,15 +32,13 @@ impl Kind for Ambient {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self {
-            radiance: args.color("L") * args.float("scale"),
-        }))
+        Some(Box::new(Self { radiance: args.color("L") * args.float("scale") }))
     }
 }
 
 impl Light for Ambient {
     fn place(&mut self, _render_from_light: &Transform) {}
-    fn sample(&self, _basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {

@@ -1,6 +1,7 @@
 //! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. The sun.
 use durer_core::{
-    math::{Point2, Point3, Transform, Vector3},
+    math::{Point3, Transform, Vector3},
+    sampling::Sampler,
     spectrum::{Basis, Color},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -40,22 +41,14 @@ impl Kind for Distant {
                 "Light travels from here",
             )
             .unit("m"),
-            ParamSpec::new(
-                "to",
-                ParamType::Point3,
-                ParamDefault::Triple([0.0, 0.0, 1.0]),
-                "towards here.",
-            )
-            .unit("m"),
+            ParamSpec::new("to", ParamType::Point3, ParamDefault::Triple([0.0, 0.0, 1.0]), "towards here.")
+                .unit("m"),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let irradiance = scaled(args, "L", "illuminance", 1.0);
         let (from, to) = (args.triple("from").into(), args.triple("to").into());
-        Some(Box::new(Self {
-            direction: axis(args, from, to)?,
-            irradiance,
-        }))
+        Some(Box::new(Self { direction: axis(args, from, to)?, irradiance }))
     }
 }
 
@@ -63,12 +56,8 @@ impl Light for Distant {
     fn place(&mut self, render_from_light: &Transform) {
         self.direction = render_from_light.vector(self.direction).normalize();
     }
-    fn sample(&self, basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let weight = basis.emission(self.irradiance);
-        (!weight.is_black()).then_some(LightSample {
-            wi: -self.direction,
-            point: None,
-            weight,
-        })
+        (!weight.is_black()).then_some(LightSample { wi: -self.direction, point: None, weight })
     }
 }

@@ -23,11 +23,7 @@ impl Falloff {
     );
 
     pub(super) fn from_args(args: &Args<'_>) -> Self {
-        if args.text("falloff") == "none" {
-            Self::None
-        } else {
-            Self::InverseSquare
-        }
+        if args.text("falloff") == "none" { Self::None } else { Self::InverseSquare }
     }
     /// Unit direction from `p` to the light at `light`, and the irradiance per intensity on a plane facing it. `None` if
     /// they coincide.

@@ -4,7 +4,8 @@
 //! horizon and `horizon + (ground - horizon) v(-s)`, `v = 1 - (1 - s)^8`, below: continuous, with a thin rim of haze under
 //! the horizon. The ambient term and glossy reflections weigh the three colours by blurred `w` and `v` (`sky_blur.rs`).
 use durer_core::{
-    math::{Normal3, Point2, Point3, Transform, Vector3, float::sqr},
+    math::{Normal3, Point3, Transform, Vector3, float::sqr},
+    sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -89,24 +90,16 @@ impl Light for GradientSky {
     fn place(&mut self, render_from_light: &Transform) {
         self.up = render_from_light.vector(self.up).normalize();
     }
-    fn sample(&self, _basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let s = n.dot(self.up);
-        self.mixed(
-            basis,
-            self.zenith_weight.ambient(s),
-            self.ground_weight.ambient(s),
-        )
+        self.mixed(basis, self.zenith_weight.ambient(s), self.ground_weight.ambient(s))
     }
     fn glossy_ambient(&self, basis: Basis, d: Vector3, alpha: f32) -> Spectrum {
         let s = d.dot(self.up);
-        self.mixed(
-            basis,
-            self.zenith_weight.glossy(s, alpha),
-            self.ground_weight.glossy(s, alpha),
-        )
+        self.mixed(basis, self.zenith_weight.glossy(s, alpha), self.ground_weight.glossy(s, alpha))
     }
     fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
         let s = d.dot(self.up);

@@ -2,7 +2,8 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Normal3, Point2, Point3, Transform, Vector3},
+    math::{Normal3, Point3, Transform, Vector3},
+    sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -22,9 +23,7 @@ impl Kind for Infinite {
         aliases: &[],
         doc: "A sky all around, of the same radiance everywhere.",
         params: &[
-            ParamSpec::color("L", [1.0; 3], "Radiance.")
-                .unit("W/(m² sr)")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::color("L", [1.0; 3], "Radiance.").unit("W/(m² sr)").range(0.0, f32::INFINITY),
             ParamSpec::float("scale", 1.0, "Factor on the radiance.").range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "illuminance",
@@ -33,12 +32,7 @@ impl Kind for Infinite {
                 "Luminance of the irradiance of a plane; replaces the magnitude of L, scale still applies.",
             )
             .range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "filename",
-                ParamType::File,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
+            ParamSpec::new("filename", ParamType::File, ParamDefault::Unset, "Not supported yet."),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -46,15 +40,13 @@ impl Kind for Infinite {
             args.error("filename", "image environment maps are not supported yet");
             return None;
         }
-        Some(Box::new(Self {
-            radiance: scaled(args, "L", "illuminance", PI),
-        }))
+        Some(Box::new(Self { radiance: scaled(args, "L", "illuminance", PI) }))
     }
 }
 
 impl Light for Infinite {
     fn place(&mut self, _render_from_light: &Transform) {}
-    fn sample(&self, _basis: Basis, _p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {

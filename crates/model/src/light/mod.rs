@@ -14,7 +14,8 @@ mod spot;
 use std::fmt::Debug;
 
 use durer_core::{
-    math::{Normal3, Point2, Point3, Transform, Vector3},
+    math::{Normal3, Point3, Transform, Vector3},
+    sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Entry};
@@ -40,9 +41,9 @@ pub struct LightSample {
 pub trait Light: Debug + Send + Sync {
     /// Moves the light from its own space into render space.
     fn place(&mut self, render_from_light: &Transform);
-    /// Light that could arrive at `p`, if nothing is in between; `u` picks a point of an extended light. `None` if
+    /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
-    fn sample(&self, basis: Basis, p: Point3, u: Point2) -> Option<LightSample>;
+    fn sample(&self, basis: Basis, p: Point3, sampler: &Sampler) -> Option<LightSample>;
     /// The ambient term: unoccluded irradiance on a surface facing `n`, divided by pi.
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let _ = (basis, n);
@@ -80,10 +81,7 @@ fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
     let (color, scale) = (args.color(name), args.float("scale"));
     match args.optional_float(total) {
         Some(_) if color.luminance() <= 0.0 => {
-            args.error(
-                name,
-                format!("a light of \"{total}\" needs a colour \"{name}\" that is not black"),
-            );
+            args.error(name, format!("a light of \"{total}\" needs a colour \"{name}\" that is not black"));
             Color::BLACK
         }
         Some(total) => color * (scale * total / (reach * color.luminance())),
@@ -95,10 +93,7 @@ fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
 fn axis(args: &mut Args<'_>, from: Point3, to: Point3) -> Option<Vector3> {
     let d = to - from;
     if d.length_squared() == 0.0 {
-        args.error(
-            "to",
-            "\"from\" and \"to\" are the same point: the light has no direction",
-        );
+        args.error("to", "\"from\" and \"to\" are the same point: the light has no direction");
         return None;
     }
     Some(d.normalize())

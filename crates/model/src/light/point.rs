@@ -2,7 +2,8 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Point2, Point3, Transform},
+    math::{Point3, Transform},
+    sampling::Sampler,
     spectrum::{Basis, Color},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -24,9 +25,7 @@ impl Kind for Point {
         aliases: &[],
         doc: "Shines equally in all directions from one point.",
         params: &[
-            ParamSpec::color("I", [1.0; 3], "Intensity.")
-                .unit("W/sr")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::color("I", [1.0; 3], "Intensity.").unit("W/sr").range(0.0, f32::INFINITY),
             ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "power",
@@ -36,24 +35,14 @@ impl Kind for Point {
             )
             .unit("W")
             .range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "from",
-                ParamType::Point3,
-                ParamDefault::Triple([0.0; 3]),
-                "Position.",
-            )
-            .unit("m"),
+            ParamSpec::new("from", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "Position.").unit("m"),
             Falloff::SPEC,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let intensity = scaled(args, "I", "power", 4.0 * PI);
         let position = args.triple("from").into();
-        Some(Box::new(Self {
-            position,
-            intensity,
-            falloff: Falloff::from_args(args),
-        }))
+        Some(Box::new(Self { position, intensity, falloff: Falloff::from_args(args) }))
     }
 }
 
@@ -61,13 +50,9 @@ impl Light for Point {
     fn place(&mut self, render_from_light: &Transform) {
         self.position = render_from_light.point(self.position);
     }
-    fn sample(&self, basis: Basis, p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, basis: Basis, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (wi, irradiance) = self.falloff.towards(self.position, p)?;
         let weight = basis.emission(self.intensity) * irradiance;
-        (!weight.is_black()).then_some(LightSample {
-            wi,
-            point: Some(self.position),
-            weight,
-        })
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight })
     }
 }

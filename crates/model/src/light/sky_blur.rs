@@ -31,22 +31,14 @@ struct Ring {
 }
 
 fn cosine_ring(u: f32) -> Ring {
-    Ring {
-        cos: (1.0 - u).sqrt(),
-        sin: u.sqrt(),
-        weight: 1.0,
-    }
+    Ring { cos: (1.0 - u).sqrt(), sin: u.sqrt(), weight: 1.0 }
 }
 
 fn glossy_ring(u: f32, alpha: f32) -> Ring {
     // Twice the angle whose tangent squared GGX distributes like this.
     let tan2 = sqr(alpha) * u / (1.0 - u);
     let cos = (1.0 - tan2) / (1.0 + tan2);
-    Ring {
-        cos,
-        sin: 2.0 * tan2.sqrt() / (1.0 + tan2),
-        weight: cos.max(0.0),
-    }
+    Ring { cos, sin: 2.0 * tan2.sqrt() / (1.0 + tan2), weight: cos.max(0.0) }
 }
 
 fn midpoint(i: usize) -> f32 {
@@ -61,11 +53,7 @@ fn blurred(f: fn(f32) -> f32, ring: impl Fn(f32) -> Ring) -> Row {
         let (mut sum, mut weights) = (0.0, 0.0);
         for i in 0..RINGS {
             let Ring { cos, sin, weight } = ring(midpoint(i));
-            let mean = azimuths
-                .iter()
-                .map(|a| f(s * cos + horizontal * sin * a))
-                .sum::<f32>()
-                / RINGS as f32;
+            let mean = azimuths.iter().map(|a| f(s * cos + horizontal * sin * a)).sum::<f32>() / RINGS as f32;
             sum += mean * weight;
             weights += weight;
         }
@@ -96,10 +84,6 @@ impl SkyBlur {
     pub(super) fn glossy(&self, s: f32, alpha: f32) -> f32 {
         let x = alpha.clamp(0.0, 1.0).sqrt() * (BLURS - 1) as f32;
         let i = (x as usize).min(BLURS - 2);
-        lerp(
-            x - i as f32,
-            read(&self.glossy[i], s),
-            read(&self.glossy[i + 1], s),
-        )
+        lerp(x - i as f32, read(&self.glossy[i], s), read(&self.glossy[i + 1], s))
     }
 }

@@ -6,7 +6,8 @@
 use std::f32::consts::{PI, TAU};
 
 use durer_core::{
-    math::{Point2, Point3, Transform, Vector3, float::cos},
+    math::{Point3, Transform, Vector3, float::cos},
+    sampling::Sampler,
     spectrum::{Basis, Color},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -32,9 +33,7 @@ impl Kind for Spot {
         aliases: &[],
         doc: "A cone of light from one point.",
         params: &[
-            ParamSpec::color("I", [1.0; 3], "Intensity on the axis.")
-                .unit("W/sr")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::color("I", [1.0; 3], "Intensity on the axis.").unit("W/sr").range(0.0, f32::INFINITY),
             ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "power",
@@ -44,13 +43,7 @@ impl Kind for Spot {
             )
             .unit("W")
             .range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "from",
-                ParamType::Point3,
-                ParamDefault::Triple([0.0; 3]),
-                "Position.",
-            )
-            .unit("m"),
+            ParamSpec::new("from", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "Position.").unit("m"),
             ParamSpec::new(
                 "to",
                 ParamType::Point3,
@@ -61,13 +54,9 @@ impl Kind for Spot {
             ParamSpec::float("coneangle", 30.0, "Angle between axis and outer cone.")
                 .unit("degrees")
                 .range(0.0, 180.0),
-            ParamSpec::float(
-                "conedeltaangle",
-                5.0,
-                "Width of the fading rim inside the outer cone.",
-            )
-            .unit("degrees")
-            .range(0.0, 180.0),
+            ParamSpec::float("conedeltaangle", 5.0, "Width of the fading rim inside the outer cone.")
+                .unit("degrees")
+                .range(0.0, 180.0),
             Falloff::SPEC,
         ],
     };
@@ -81,14 +70,7 @@ impl Kind for Spot {
         let (from, to) = (args.triple("from").into(), args.triple("to").into());
         let axis = axis(args, from, to)?;
         let falloff = Falloff::from_args(args);
-        Some(Box::new(Self {
-            position: from,
-            axis,
-            cos_inner,
-            cos_outer,
-            intensity,
-            falloff,
-        }))
+        Some(Box::new(Self { position: from, axis, cos_inner, cos_outer, intensity, falloff }))
     }
 }
 
@@ -111,13 +93,9 @@ impl Light for Spot {
         self.position = render_from_light.point(self.position);
         self.axis = render_from_light.vector(self.axis).normalize();
     }
-    fn sample(&self, basis: Basis, p: Point3, _u: Point2) -> Option<LightSample> {
+    fn sample(&self, basis: Basis, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (wi, irradiance) = self.falloff.towards(self.position, p)?;
         let weight = basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(self.axis)));
-        (!weight.is_black()).then_some(LightSample {
-            wi,
-            point: Some(self.position),
-            weight,
-        })
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight })
     }
 }

@@ -45,18 +45,10 @@ impl Kind for Classic {
                 .range(0.0, f32::INFINITY),
             ParamSpec::color_texture("specular", BLACK, "Coefficient of the lights' highlights.")
                 .range(0.0, f32::INFINITY),
-            ParamSpec::float(
-                "exponent",
-                32.0,
-                "Exponent of the highlights: larger is smaller and sharper.",
-            )
-            .range(0.0, 1e6),
-            ParamSpec::color_texture(
-                "reflection",
-                BLACK,
-                "Weight of the mirrored ray; none is traced if 0.",
-            )
-            .range(0.0, f32::INFINITY),
+            ParamSpec::float("exponent", 32.0, "Exponent of the highlights: larger is smaller and sharper.")
+                .range(0.0, 1e6),
+            ParamSpec::color_texture("reflection", BLACK, "Weight of the mirrored ray; none is traced if 0.")
+                .range(0.0, f32::INFINITY),
             ParamSpec::color_texture("transmission", BLACK, "Weight of the refracted ray; opaque if 0.")
                 .range(0.0, f32::INFINITY),
             ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
@@ -80,28 +72,18 @@ impl Kind for Classic {
 impl Material for Classic {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
-        let mut bsdf = Bsdf::default().with(Lobe::Diffuse {
-            albedo: share(cx, self.diffuse, &at),
-        });
+        let mut bsdf = Bsdf::default().with(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
         if let Some(ambient) = self.ambient {
-            bsdf = bsdf.with(Lobe::Ambient {
-                coefficient: share(cx, ambient, &at),
-            });
+            bsdf = bsdf.with(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
         }
         let specular = share(cx, self.specular, &at);
         if !specular.is_black() {
-            bsdf = bsdf.with(Lobe::Highlight(Highlight {
-                specular,
-                exponent: self.exponent,
-            }));
+            bsdf = bsdf.with(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
         }
         let reflection = share(cx, self.reflection, &at);
         let transmission = share(cx, self.transmission, &at);
         if !transmission.is_black() {
-            let split = Split::Constant {
-                reflection,
-                transmission,
-            };
+            let split = Split::Constant { reflection, transmission };
             bsdf.with(Lobe::Interface(Interface { eta: self.eta, split }))
         } else if !reflection.is_black() {
             bsdf.with(Lobe::Mirror { weight: reflection })

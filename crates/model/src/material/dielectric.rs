@@ -15,13 +15,7 @@ pub struct Dielectric {
 }
 
 /// Parameters of pbrt's rough dielectric and its surface detail.
-const UNSUPPORTED: &[&str] = &[
-    "uroughness",
-    "vroughness",
-    "remaproughness",
-    "displacement",
-    "normalmap",
-];
+const UNSUPPORTED: &[&str] = &["uroughness", "vroughness", "remaproughness", "displacement", "normalmap"];
 
 impl Kind for Dielectric {
     type Output = Box<dyn Material>;
@@ -33,57 +27,29 @@ impl Kind for Dielectric {
             ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
                 .range(0.1, 10.0),
             ParamSpec::float("roughness", 0.0, "Only 0 is supported yet.").range(0.0, 1.0),
-            ParamSpec::new(
-                "uroughness",
-                ParamType::FloatTexture,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
-            ParamSpec::new(
-                "vroughness",
-                ParamType::FloatTexture,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
-            ParamSpec::new(
-                "remaproughness",
-                ParamType::Bool,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
+            ParamSpec::new("uroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
+            ParamSpec::new("vroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
+            ParamSpec::new("remaproughness", ParamType::Bool, ParamDefault::Unset, "Not supported yet."),
             ParamSpec::new(
                 "displacement",
                 ParamType::FloatTexture,
                 ParamDefault::Unset,
                 "Not supported yet.",
             ),
-            ParamSpec::new(
-                "normalmap",
-                ParamType::Text,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
+            ParamSpec::new("normalmap", ParamType::Text, ParamDefault::Unset, "Not supported yet."),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         warn_unsupported(args, UNSUPPORTED);
         if args.float("roughness") > 0.0 {
-            args.warning(
-                "roughness",
-                "rough dielectrics are not supported yet; smooth is used",
-            );
+            args.warning("roughness", "rough dielectrics are not supported yet; smooth is used");
         }
-        Some(Box::new(Self {
-            eta: args.float("eta"),
-        }))
+        Some(Box::new(Self { eta: args.float("eta") }))
     }
 }
 
 impl Material for Dielectric {
     fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
-        Bsdf::default().with(Lobe::Interface(Interface {
-            eta: self.eta,
-            split: Split::Fresnel,
-        }))
+        Bsdf::default().with(Lobe::Interface(Interface { eta: self.eta, split: Split::Fresnel }))
     }
 }

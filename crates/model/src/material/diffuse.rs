@@ -29,19 +29,12 @@ impl Kind for Diffuse {
                 ParamDefault::Unset,
                 "Not supported yet.",
             ),
-            ParamSpec::new(
-                "normalmap",
-                ParamType::Text,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
+            ParamSpec::new("normalmap", ParamType::Text, ParamDefault::Unset, "Not supported yet."),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         warn_unsupported(args, &["displacement", "normalmap"]);
-        Some(Box::new(Self {
-            reflectance: share_input(args, "reflectance"),
-        }))
+        Some(Box::new(Self { reflectance: share_input(args, "reflectance") }))
     }
 }
 

@@ -20,15 +20,11 @@ impl Kind for Mirror {
         name: "mirror",
         aliases: &[],
         doc: "Perfect mirror: reflects the same share of light under all angles.",
-        params: &[
-            ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.")
-                .range(0.0, f32::INFINITY),
-        ],
+        params: &[ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.")
+            .range(0.0, f32::INFINITY)],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self {
-            reflectance: share_input(args, "reflectance"),
-        }))
+        Some(Box::new(Self { reflectance: share_input(args, "reflectance") }))
     }
 }
 

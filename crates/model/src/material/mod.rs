@@ -82,8 +82,7 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
 fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
-    cx.basis
-        .reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
+    cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
 }
 
 /// Warns about each of the parameters `names` that the file gives.

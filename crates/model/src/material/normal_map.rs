@@ -25,21 +25,13 @@ pub(super) fn tilted(surface: &Surface, c: Color, scale: f32, wo: Vector3) -> No
     let tangent = tangent.normalize();
     let bitangent = n_s.cross(tangent).normalize();
     // Mirrored texture coordinates turn the bitangent round.
-    let bitangent = if bitangent.dot(surface.dpdv) < 0.0 {
-        -bitangent
-    } else {
-        bitangent
-    };
+    let bitangent = if bitangent.dot(surface.dpdv) < 0.0 { -bitangent } else { bitangent };
     let [x, y, z] = c.rgb.map(|v| 2.0 * v - 1.0);
     let n = (tangent * (x * scale) + bitangent * (y * scale) + n_s * z).normalize();
 
     let viewer = if surface.is_outside(wo) { wo } else { -wo };
     let cos = n.dot(viewer);
-    let n = if cos < MIN_COSINE {
-        (n + viewer * (MIN_COSINE - cos)).normalize()
-    } else {
-        n
-    };
+    let n = if cos < MIN_COSINE { (n + viewer * (MIN_COSINE - cos)).normalize() } else { n };
     let sound = n.is_finite() && surface.n_g.dot(n) > 0.0;
     if sound { n.into() } else { surface.n_s }
 }

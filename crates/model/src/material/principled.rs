@@ -66,22 +66,14 @@ impl Kind for Principled {
                 ParamDefault::Text("opaque"),
                 "Whether alpha is ignored, cuts holes, or blends with what lies behind.",
             ),
-            ParamSpec::float(
-                "alphacutoff",
-                0.5,
-                "With mask: holes are where alpha is below this.",
-            )
-            .range(0.0, 1e6),
+            ParamSpec::float("alphacutoff", 0.5, "With mask: holes are where alpha is below this.")
+                .range(0.0, 1e6),
             ParamSpec::float_texture("metallic", 0.0, "0 dielectric, 1 metal.").range(0.0, 1.0),
             ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.")
                 .range(0.0, 1.0),
             ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
-            ParamSpec::float_texture(
-                "transmission",
-                0.0,
-                "Share of the body that is a thin clear sheet.",
-            )
-            .range(0.0, 1.0),
+            ParamSpec::float_texture("transmission", 0.0, "Share of the body that is a thin clear sheet.")
+                .range(0.0, 1.0),
             ParamSpec::color_texture("emission", [0.0; 3], "Radiance emitted.").range(0.0, f32::INFINITY),
             ParamSpec::float("emissionstrength", 1.0, "Factor on emission.").range(0.0, f32::INFINITY),
             ParamSpec::new(
@@ -145,23 +137,15 @@ impl Material for Principled {
         let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
 
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
-        let dielectric = Glossy {
-            f0: dielectric_f0,
-            alpha: sqr(unit(self.roughness)),
-            scale: coverage,
-        };
+        let dielectric = Glossy { f0: dielectric_f0, alpha: sqr(unit(self.roughness)), scale: coverage };
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
-        let below = dielectric
-            .directional_albedo(local_wo)
-            .map(|e| (1.0 - e).max(0.0));
+        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
         let body = base * below * ((1.0 - metallic) * coverage);
 
         let f0 = dielectric_f0 * (1.0 - metallic) + base * metallic;
         let passing = body * transmission + Spectrum::splat(1.0 - coverage);
         Bsdf::default()
-            .with(Lobe::Diffuse {
-                albedo: body * (1.0 - transmission),
-            })
+            .with(Lobe::Diffuse { albedo: body * (1.0 - transmission) })
             .with(Lobe::Glossy(Glossy { f0, ..dielectric }))
             .with(Lobe::PassThrough { weight: passing })
     }

@@ -27,12 +27,7 @@ impl Disk {
     /// Of the given radii in metres (`inner_radius < radius`), from phi = 0 to `phi_max` degrees.
     pub fn new(height: f32, radius: f32, inner_radius: f32, phi_max: f32) -> Self {
         let carrier = Carrier::new(DVec3::new(0.0, 0.0, height.into()), DVec3::Z);
-        Self {
-            carrier,
-            radius,
-            inner_radius,
-            phi_max: arc_angle(phi_max),
-        }
+        Self { carrier, radius, inner_radius, phi_max: arc_angle(phi_max) }
     }
 }
 
@@ -61,11 +56,7 @@ impl Shape for Disk {
             (self.radius - distance as f32) / width,
         );
         // The centre has no azimuth: any will do.
-        let (x, y) = if distance > 0.0 {
-            (exact.x / distance, exact.y / distance)
-        } else {
-            (1.0, 0.0)
-        };
+        let (x, y) = if distance > 0.0 { (exact.x / distance, exact.y / distance) } else { (1.0, 0.0) };
         let flat = self.carrier.surface(exact, uv, [1.0; 2]);
         Surface {
             dpdu: Vector3::new(-flat.p.y, flat.p.x, 0.0) * self.phi_max,
@@ -90,9 +81,7 @@ impl Kind for Disk {
             ParamSpec::float("radius", 1.0, "Outer radius; more than innerradius.")
                 .unit("m")
                 .range(0.0, f32::INFINITY),
-            ParamSpec::float("innerradius", 0.0, "Radius of the hole.")
-                .unit("m")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::float("innerradius", 0.0, "Radius of the hole.").unit("m").range(0.0, f32::INFINITY),
             ParamSpec::float(
                 "phimax",
                 360.0,
@@ -114,7 +103,6 @@ impl Kind for Disk {
         if phi_max == 0.0 {
             args.error("phimax", "\"phimax\" is 0, expected more than 0");
         }
-        args.is_sound()
-            .then(|| Geometry::Shape(Box::new(Self::new(height, radius, inner_radius, phi_max))))
+        args.is_sound().then(|| Geometry::Shape(Box::new(Self::new(height, radius, inner_radius, phi_max))))
     }
 }

@@ -33,6 +33,7 @@ impl Kind for TriangleMesh {
             )
             .range(0.0, f32::INFINITY),
             ParamSpec::new("N", ParamType::Normals, ParamDefault::Unset, "Shading normal of each vertex."),
+            ParamSpec::new("S", ParamType::Vector3s, ParamDefault::Unset, "Shading tangent of each vertex."),
             ParamSpec::new("uv", ParamType::Point2s, ParamDefault::Unset, "Texture coordinates of each vertex."),
         ],
     };
@@ -46,40 +47,29 @@ impl Kind for TriangleMesh {
         if !rest.is_empty() {
             args.error(
                 "indices",
-                format!(
-                    "\"indices\" has {} values, expected a multiple of 3",
-                    indices.len()
-                ),
+                format!("\"indices\" has {} values, expected a multiple of 3", indices.len()),
             );
         }
         let mut triangles: Vec<[u32; 3]> = triples.iter().map(|t| t.map(|i| i.max(0) as u32)).collect();
         if !args.is_set("indices") {
             triangles.push([0, 1, 2]);
             if positions.len() != 3 {
-                let message = format!(
-                    "trianglemesh needs \"integer indices\" for {} vertices",
-                    positions.len()
-                );
+                let message =
+                    format!("trianglemesh needs \"integer indices\" for {} vertices", positions.len());
                 args.error("indices", message);
             }
         }
         let normals = args.triples("N").into_iter().map(Normal3::from).collect();
         let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
-        let mesh = Mesh {
-            positions,
-            indices: triangles,
-            normals,
-            uvs,
-            ..Mesh::default()
-        };
+        let tangents = args.triples("S").into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        let mesh = Mesh { positions, indices: triangles, normals, uvs, tangents, colors: Vec::new() };
         if args.is_sound()
             && let Err(error) = mesh.validate()
         {
             let name = match error {
                 durer_scene::MeshError::Index { .. } => "indices",
-                durer_scene::MeshError::Length {
-                    attribute: "normals", ..
-                } => "N",
+                durer_scene::MeshError::Length { attribute: "normals", .. } => "N",
+                durer_scene::MeshError::Length { attribute: "tangents", .. } => "S",
                 durer_scene::MeshError::Length { .. } => "uv",
                 durer_scene::MeshError::NotFinite { .. } => "P",
             };
@@ -100,9 +90,7 @@ impl Weights {
     fn sum<T: Copy, const N: usize>(&self, list: &[T], numbers: impl Fn(T) -> [f32; N]) -> Option<[f32; N]> {
         let [p, q, r] = self.vertices.map(|i| list.get(i).copied().map(&numbers));
         let (p, q, r) = (p?, q?, r?);
-        Some(std::array::from_fn(|i| {
-            self.b[0] * p[i] + self.b[1] * q[i] + self.b[2] * r[i]
-        }))
+        Some(std::array::from_fn(|i| self.b[0] * p[i] + self.b[1] * q[i] + self.b[2] * r[i]))
     }
 }
 
@@ -112,10 +100,7 @@ impl Weights {
 /// (as pbrt does). A triangle without area gets the z axis if nothing better is known.
 pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
     let vertices = mesh.indices[prim as usize].map(|i| i as usize);
-    let weights = Weights {
-        vertices,
-        b: [1.0 - u - v, u, v],
-    };
+    let weights = Weights { vertices, b: [1.0 - u - v, u, v] };
     let corners = vertices.map(|i| mesh.positions[i]);
     let [p0, p1, p2] = corners.map(Point3::to_f64);
     let (b1, b2) = (f64::from(u), f64::from(v));
@@ -124,10 +109,7 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
     let p = Point3::from_f64(p0 * b0 + p1 * b1 + p2 * b2);
     let p_error = Vector3::from_f64((p0 * b0).abs() + (p1 * b1).abs() + (p2 * b2).abs()) * gamma(7);
 
-    let shading = weights
-        .sum(&mesh.normals, Normal3::to_array)
-        .map(Normal3::from)
-        .and_then(unit);
+    let shading = weights.sum(&mesh.normals, Normal3::to_array).map(Normal3::from).and_then(unit);
     let winding = unit(Normal3::from_f64((p1 - p0).cross(p2 - p0).normalize_or_zero()));
     let n_g = match (winding, shading) {
         (Some(n), Some(s)) => n.face_forward(s),
@@ -136,18 +118,13 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
     };
     let n_s = shading.unwrap_or(n_g);
     let uvs = match mesh.uvs.as_slice() {
-        [] => [
-            Point2::new(0.0, 0.0),
-            Point2::new(1.0, 0.0),
-            Point2::new(1.0, 1.0),
-        ],
+        [] => [Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(1.0, 1.0)],
         uvs => vertices.map(|i| uvs[i]),
     };
     let mix =
         |c: fn(Point2) -> f32| weights.b[0] * c(uvs[0]) + weights.b[1] * c(uvs[1]) + weights.b[2] * c(uvs[2]);
-    let (dpdu, dpdv) = tangents(mesh, &weights, n_s)
-        .or_else(|| partials([p0, p1, p2], uvs))
-        .unwrap_or_else(|| {
+    let (dpdu, dpdv) =
+        tangents(mesh, &weights, n_s).or_else(|| partials([p0, p1, p2], uvs)).unwrap_or_else(|| {
             let frame = Frame::from_z(n_g);
             (frame.x, frame.y)
         });

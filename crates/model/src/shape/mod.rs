@@ -72,11 +72,7 @@ fn accept(ray: &Ray, t: f64, error: f64) -> Option<f32> {
 
 /// An angle in degrees, at most a full turn, in radians; 360 gives exactly [`TAU`].
 fn arc_angle(degrees: f32) -> f32 {
-    if degrees >= 360.0 {
-        TAU
-    } else {
-        degrees.to_radians()
-    }
+    if degrees >= 360.0 { TAU } else { degrees.to_radians() }
 }
 
 /// Angle of `(x, y)` from the x axis towards y in `[0, TAU]`.

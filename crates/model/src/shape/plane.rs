@@ -41,12 +41,7 @@ impl Carrier {
         };
         let u = (first - n * n.dot(first)).normalize();
         let v = n.cross(u).normalize();
-        Self {
-            origin,
-            n,
-            u,
-            v: if v.dot(second) < 0.0 { -v } else { v },
-        }
+        Self { origin, n, u, v: if v.dot(second) < 0.0 { -v } else { v } }
     }
     /// The lecture's `H(P)`: distance, positive on the side of the normal.
     pub(super) fn height(&self, p: DVec3) -> f64 {
@@ -113,10 +108,7 @@ impl Plane {
     /// The plane through `point`; `normal` need not be of unit length, but not zero. Texture coordinates count from
     /// `point`, `uv_scale` to the metre: for normal +y `u = x` and `v = z` times the scale.
     pub fn new(point: Point3, normal: Vector3, uv_scale: f32) -> Self {
-        Self {
-            carrier: Carrier::new(point.to_f64(), normal.to_f64()),
-            uv_scale: uv_scale.into(),
-        }
+        Self { carrier: Carrier::new(point.to_f64(), normal.to_f64()), uv_scale: uv_scale.into() }
     }
     /// `H(P) = n.P + D`: the distance of `p` in metres, positive on the side of the normal.
     pub fn signed_distance(&self, p: Point3) -> f32 {
@@ -170,10 +162,7 @@ impl Kind for Plane {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
-        let (point, normal) = (
-            Point3::from(args.triple("point")),
-            Vector3::from(args.triple("normal")),
-        );
+        let (point, normal) = (Point3::from(args.triple("point")), Vector3::from(args.triple("normal")));
         let uv_scale = args.float("uvscale");
         if normal == Vector3::ZERO {
             args.error("normal", "\"normal\" is the zero vector, which has no direction");
@@ -181,7 +170,6 @@ impl Kind for Plane {
         if uv_scale == 0.0 {
             args.error("uvscale", "\"uvscale\" is 0, expected more than 0");
         }
-        args.is_sound()
-            .then(|| Geometry::Shape(Box::new(Self::new(point, normal, uv_scale))))
+        args.is_sound().then(|| Geometry::Shape(Box::new(Self::new(point, normal, uv_scale))))
     }
 }

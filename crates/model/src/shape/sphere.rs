@@ -51,14 +51,7 @@ impl Sphere {
         let phi_max = arc_angle(phi_max);
         let whole = z_min == -radius && z_max == radius && phi_max == TAU;
         let theta = if whole { (PI, 0.0) } else { theta };
-        Self {
-            radius,
-            z_min,
-            z_max,
-            phi_max,
-            theta,
-            whole,
-        }
+        Self { radius, z_min, z_max, phi_max, theta, whole }
     }
 
     fn roots(&self, ray: &Ray) -> Option<Roots> {
@@ -78,11 +71,7 @@ impl Sphere {
         let room_error = 16.0 * f64::EPSILON * reach * reach;
         let half_error = (room_error / room.sqrt()).min(room_error.sqrt()) / a.sqrt();
         let error = half_error + 8.0 * f64::EPSILON * (o.length() / a.sqrt() + middle.abs() + half);
-        Some(Roots {
-            near: middle - half,
-            far: middle + half,
-            error,
-        })
+        Some(Roots { near: middle - half, far: middle + half, error })
     }
 
     /// The point at `t`, put back on the sphere.
@@ -119,11 +108,7 @@ impl Shape for Sphere {
         let roots = self.roots(ray)?;
         [roots.near, roots.far].into_iter().find_map(|t| {
             let rounded = accept(ray, t, roots.error)?;
-            (self.whole || self.keeps(self.point(ray, t))).then_some(ShapeHit {
-                t: rounded,
-                u: 0.0,
-                v: 0.0,
-            })
+            (self.whole || self.keeps(self.point(ray, t))).then_some(ShapeHit { t: rounded, u: 0.0, v: 0.0 })
         })
     }
 
@@ -131,11 +116,7 @@ impl Shape for Sphere {
         // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
         let wanted = f64::from(hit.t);
         let t = self.roots(ray).map_or(wanted, |roots| {
-            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() {
-                roots.near
-            } else {
-                roots.far
-            }
+            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() { roots.near } else { roots.far }
         });
         let exact = self.point(ray, t);
         let p = Point3::from_f64(exact);
@@ -144,11 +125,7 @@ impl Shape for Sphere {
         let theta = float::atan2(across as f32, p.z);
         let (bottom, top) = self.theta;
         // A pole has no azimuth: any will do.
-        let (cos_phi, sin_phi) = if across > 0.0 {
-            (exact.x / across, exact.y / across)
-        } else {
-            (1.0, 0.0)
-        };
+        let (cos_phi, sin_phi) = if across > 0.0 { (exact.x / across, exact.y / across) } else { (1.0, 0.0) };
         let down = Vector3::from_f64(DVec3::new(exact.z * cos_phi, exact.z * sin_phi, -across));
         Surface {
             p,
@@ -174,23 +151,11 @@ impl Kind for Sphere {
         aliases: &[],
         doc: "A sphere around the origin, whole or cut by two heights and an angle. Its poles lie on the z axis.",
         params: &[
-            ParamSpec::float("radius", 1.0, "Radius; more than 0.")
-                .unit("m")
-                .range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "zmin",
-                ParamType::Float,
-                ParamDefault::Unset,
-                "Lowest z kept; default -radius.",
-            )
-            .unit("m"),
-            ParamSpec::new(
-                "zmax",
-                ParamType::Float,
-                ParamDefault::Unset,
-                "Highest z kept; default radius.",
-            )
-            .unit("m"),
+            ParamSpec::float("radius", 1.0, "Radius; more than 0.").unit("m").range(0.0, f32::INFINITY),
+            ParamSpec::new("zmin", ParamType::Float, ParamDefault::Unset, "Lowest z kept; default -radius.")
+                .unit("m"),
+            ParamSpec::new("zmax", ParamType::Float, ParamDefault::Unset, "Highest z kept; default radius.")
+                .unit("m"),
             ParamSpec::float(
                 "phimax",
                 360.0,
@@ -210,12 +175,8 @@ impl Kind for Sphere {
         let z_min = args.optional_float("zmin").unwrap_or(-radius);
         let z_max = args.optional_float("zmax").unwrap_or(radius);
         if args.is_sound() && z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {
-            args.error(
-                "zmin",
-                format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"),
-            );
+            args.error("zmin", format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"));
         }
-        args.is_sound()
-            .then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
+        args.is_sound().then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
     }
 }

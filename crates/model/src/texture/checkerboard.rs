@@ -22,10 +22,7 @@ pub struct Checkerboard<V> {
 impl<V: Value> Checkerboard<V> {
     fn square(&self, at: &TextureAt) -> V {
         // Parities are added, not floors: large coordinates would round their sum.
-        let odd = self
-            .mapping
-            .apply(at.uv)
-            .map(|c| c.floor().rem_euclid(2.0) == 1.0);
+        let odd = self.mapping.apply(at.uv).map(|c| c.floor().rem_euclid(2.0) == 1.0);
         if odd[0] == odd[1] { self.tex1 } else { self.tex2 }
     }
 }
@@ -46,12 +43,7 @@ impl<V: Value> Kind for Checkerboard<V> {
         aliases: &[],
         doc: "Two values or textures on alternating unit squares of texture space; tex1 in [0, 1)².",
         params: &[
-            ParamSpec::new(
-                "tex1",
-                V::TYPE,
-                V::ONE,
-                "On squares whose coordinates add up to an even number.",
-            ),
+            ParamSpec::new("tex1", V::TYPE, V::ONE, "On squares whose coordinates add up to an even number."),
             ParamSpec::new("tex2", V::TYPE, V::ZERO, "On the other squares."),
             U_SCALE,
             V_SCALE,
@@ -69,14 +61,10 @@ impl<V: Value> Kind for Checkerboard<V> {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         if args.int("dimension") == 3 {
-            args.error(
-                "dimension",
-                "checkerboards of dimension 3 are not supported yet, only 2",
-            );
+            args.error("dimension", "checkerboards of dimension 3 are not supported yet, only 2");
         }
         let mapping = UvMapping::read(args);
         let (tex1, tex2) = (V::read(args, "tex1"), V::read(args, "tex2"));
-        args.is_sound()
-            .then(|| Box::new(Self { tex1, tex2, mapping }) as Box<dyn Texture>)
+        args.is_sound().then(|| Box::new(Self { tex1, tex2, mapping }) as Box<dyn Texture>)
     }
 }

@@ -26,16 +26,10 @@ impl<V: Value> Kind for Constant<V> {
         name: "constant",
         aliases: &[],
         doc: "The same value everywhere.",
-        params: &[ParamSpec::new(
-            "value",
-            V::TYPE,
-            V::ONE,
-            "The value; colours are linear Rec. 709.",
-        )],
+        params: &[ParamSpec::new("value", V::TYPE, V::ONE, "The value; colours are linear Rec. 709.")],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let value = V::read(args, "value");
-        args.is_sound()
-            .then(|| Box::new(Self { value }) as Box<dyn Texture>)
+        args.is_sound().then(|| Box::new(Self { value }) as Box<dyn Texture>)
     }
 }

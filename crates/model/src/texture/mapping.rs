@@ -34,10 +34,7 @@ impl UvMapping {
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         let mapping = args.text("mapping");
         if mapping != "uv" {
-            args.error(
-                "mapping",
-                format!("the mapping \"{mapping}\" is not supported yet, only \"uv\""),
-            );
+            args.error("mapping", format!("the mapping \"{mapping}\" is not supported yet, only \"uv\""));
         }
         let four = ["uscale", "vscale", "udelta", "vdelta"];
         let [su, sv, du, dv] = four.map(|name| f64::from(args.float(name)));
@@ -50,10 +47,7 @@ impl UvMapping {
                 Self([m0, m1, m2, m3, m4, m5].map(f64::from))
             }
             ref other => {
-                args.error(
-                    "uvmatrix",
-                    format!("\"uvmatrix\" has {} values, expected 6", other.len()),
-                );
+                args.error("uvmatrix", format!("\"uvmatrix\" has {} values, expected 6", other.len()));
                 Self([1.0, 0.0, 0.0, 0.0, 1.0, 0.0])
             }
         }

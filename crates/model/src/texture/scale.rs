@@ -34,7 +34,6 @@ impl<V: Value> Kind for Scale<V> {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let (tex, scale) = (V::read(args, "tex"), args.float_input("scale"));
-        args.is_sound()
-            .then(|| Box::new(Self { tex, scale }) as Box<dyn Texture>)
+        args.is_sound().then(|| Box::new(Self { tex, scale }) as Box<dyn Texture>)
     }
 }

@@ -24,10 +24,7 @@ fn hits_lie_within_their_error_however_far_away() {
         let n = random.direction();
         let origin = random.direction() * 10f64.powf(random.between(-3.0, 3.0));
         let plane = Plane::new(Point3::from_f64(origin), Vector3::from_f64(n), 1.0);
-        let (n, origin) = (
-            Vector3::from_f64(n).to_f64().normalize(),
-            Point3::from_f64(origin).to_f64(),
-        );
+        let (n, origin) = (Vector3::from_f64(n).to_f64().normalize(), Point3::from_f64(origin).to_f64());
         let far = 10f64.powf(random.between(-2.0, 6.0));
         let d = random.direction();
         let grazing = (d - n * n.dot(d)).normalize() - n * 10f64.powf(random.between(-6.0, 0.0));
@@ -42,17 +39,9 @@ fn hits_lie_within_their_error_however_far_away() {
         let slope = n.dot(ray.d.to_f64()).abs();
         let own = 1e-15 * (ray.o.to_f64().length() + exact.length()) / slope;
         let off = (s.p.to_f64() - exact).abs();
-        assert!(
-            off.cmple(s.p_error.to_f64() + own).all(),
-            "{ray:?}: {off:?} > {:?}",
-            s.p_error
-        );
+        assert!(off.cmple(s.p_error.to_f64() + own).all(), "{ray:?}: {off:?} > {:?}", s.p_error);
         let height = n.dot(s.p.to_f64() - origin).abs();
-        assert!(
-            height <= n.abs().dot(s.p_error.to_f64()),
-            "{height} off the plane at t = {}",
-            hit.t
-        );
+        assert!(height <= n.abs().dot(s.p_error.to_f64()), "{height} off the plane at t = {}", hit.t);
     }
 }
 
@@ -62,10 +51,7 @@ fn a_floor_has_u_along_x_and_v_along_z() {
     let down = Ray::new(Point3::new(3.0, 5.0, -4.0), Vector3::new(0.0, -1.0, 0.0));
     let s = floor.surface(&down, &floor.intersect(&down).expect("below"));
     assert_eq!((s.uv.x, s.uv.y), (6.0, -8.0));
-    assert_eq!(
-        (s.dpdu, s.dpdv),
-        (Vector3::new(0.5, 0.0, 0.0), Vector3::new(0.0, 0.0, 0.5))
-    );
+    assert_eq!((s.dpdu, s.dpdv), (Vector3::new(0.5, 0.0, 0.0), Vector3::new(0.0, 0.0, 0.5)));
     assert_eq!(floor.bounds(), Bounds3::UNBOUNDED);
     assert!(floor.area().is_infinite());
 }
@@ -97,15 +83,8 @@ fn disk_partials_are_derivatives_of_the_parametrisation() {
         let down = ray(at(u, v) + DVec3::Z, -DVec3::Z);
         let s = disk.surface(&down, &disk.intersect(&down).expect("below"));
         let h = 1e-5;
-        let (du, dv) = (
-            (at(u + h, v) - at(u - h, v)) / (2.0 * h),
-            (at(u, v + h) - at(u, v - h)) / (2.0 * h),
-        );
-        assert!(
-            (f64::from(s.uv.x) - u).abs() < 1e-6 && (f64::from(s.uv.y) - v).abs() < 1e-6,
-            "{:?}",
-            s.uv
-        );
+        let (du, dv) = ((at(u + h, v) - at(u - h, v)) / (2.0 * h), (at(u, v + h) - at(u, v - h)) / (2.0 * h));
+        assert!((f64::from(s.uv.x) - u).abs() < 1e-6 && (f64::from(s.uv.y) - v).abs() < 1e-6, "{:?}", s.uv);
         assert!((s.dpdu.to_f64() - du).length() < 1e-4 && (s.dpdv.to_f64() - dv).length() < 1e-4);
         assert!(s.dpdu.cross(s.dpdv).dot(s.n_g) > 0.0 && s.n_g.z == 1.0);
     }
@@ -115,8 +94,7 @@ fn disk_partials_are_derivatives_of_the_parametrisation() {
 fn a_ring_is_hit_between_its_radii_from_both_sides() {
     let ring = Disk::new(0.0, 1.0, 0.5, 180.0);
     let hit = |x: f32, y: f32, side: f32| {
-        ring.intersect(&Ray::new(Point3::new(x, y, side), Vector3::new(0.0, 0.0, -side)))
-            .is_some()
+        ring.intersect(&Ray::new(Point3::new(x, y, side), Vector3::new(0.0, 0.0, -side))).is_some()
     };
     for side in [1.0, -1.0] {
         assert!(hit(0.0, 0.75, side) && hit(0.5, 0.0, side) && hit(1.0, 0.0, side));

@@ -16,17 +16,10 @@ use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType};
 /// What the registry makes of a node, or everything it complains about.
 fn build(kind: &str, params: Params) -> Result<Geometry, String> {
     let node = Node::new(kind, params);
-    let entry = SHAPES
-        .iter()
-        .find(|e| e.answers_to(kind))
-        .expect("a registered word");
+    let entry = SHAPES.iter().find(|e| e.answers_to(kind)).expect("a registered word");
     let mut diagnostics = Diagnostics::default();
     let built = (entry.build)(&mut Args::check(&node, entry.schema, &[], &mut diagnostics));
-    let said = diagnostics
-        .iter()
-        .map(|d| d.message.as_str())
-        .collect::<Vec<_>>()
-        .join("; ");
+    let said = diagnostics.iter().map(|d| d.message.as_str()).collect::<Vec<_>>().join("; ");
     match built {
         Some(geometry) => {
             assert!(!diagnostics.has_errors(), "{kind} was built in spite of: {said}");

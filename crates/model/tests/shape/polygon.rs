@@ -15,21 +15,11 @@ use super::{build, points, ray, shape};
 type Loop = Vec<[f64; 2]>;
 
 fn edges(loops: &[Loop]) -> Vec<[[f64; 2]; 2]> {
-    loops
-        .iter()
-        .flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]))
-        .collect()
+    loops.iter().flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]])).collect()
 }
 
 fn lift(loops: &[Loop]) -> Vec<Vec<Point3>> {
-    loops
-        .iter()
-        .map(|l| {
-            l.iter()
-                .map(|p| Point3::new(p[0] as f32, p[1] as f32, 0.0))
-                .collect()
-        })
-        .collect()
+    loops.iter().map(|l| l.iter().map(|p| Point3::new(p[0] as f32, p[1] as f32, 0.0)).collect()).collect()
 }
 
 /// A star of alternating radii: concave, simple.
@@ -45,27 +35,19 @@ fn star(spikes: u32, inner: f64, turn: f64) -> Loop {
 
 /// Five points of a circle, every second one joined.
 fn pentagram() -> Loop {
-    (0..5)
-        .map(|i| f64::from(2 * i) * std::f64::consts::TAU / 5.0)
-        .map(|a| [a.cos(), a.sin()])
-        .collect()
+    (0..5).map(|i| f64::from(2 * i) * std::f64::consts::TAU / 5.0).map(|a| [a.cos(), a.sin()]).collect()
 }
 
 #[test]
 fn crossings_and_windings_agree_on_simple_polygons() {
     let mut random = Random::new(3);
-    let holed = [
-        star(7, 0.6, 1.0),
-        star(5, 0.4, -1.0).iter().map(|p| p.map(|c| c * 0.5)).collect(),
-    ];
+    let holed = [star(7, 0.6, 1.0), star(5, 0.4, -1.0).iter().map(|p| p.map(|c| c * 0.5)).collect()];
     for loops in [vec![star(9, 0.3, 1.0)], vec![star(4, 0.1, -1.0)], holed.to_vec()] {
         let (edges, mut inside) = (edges(&loops), 0);
         for _ in 0..20_000 {
             let p = [random.between(-1.1, 1.1), random.between(-1.1, 1.1)];
-            let (crossings, windings) = (
-                crossing_number(p, edges.iter().copied()),
-                winding_number(p, edges.iter().copied()),
-            );
+            let (crossings, windings) =
+                (crossing_number(p, edges.iter().copied()), winding_number(p, edges.iter().copied()));
             assert_eq!(crossings % 2 == 1, windings != 0, "{p:?}");
             inside += usize::from(windings != 0);
         }
@@ -80,40 +62,28 @@ fn the_heart_of_a_pentagram_is_wound_around_twice() {
     assert_eq!(crossing_number([0.0, 0.0], edges.iter().copied()) % 2, 0);
     assert_eq!(winding_number([0.8, 0.0], edges.iter().copied()), 1);
     assert_eq!(winding_number([-0.8, 0.0], edges.iter().copied()), 0);
-    let p: Vec<[f32; 3]> = pentagram()
-        .iter()
-        .map(|p| [p[0] as f32, p[1] as f32, 0.0])
-        .collect();
+    let p: Vec<[f32; 3]> = pentagram().iter().map(|p| [p[0] as f32, p[1] as f32, 0.0]).collect();
     let (ty, data) = points(&p);
     let params = Params::new().with("P", ty, data);
     let down = Ray::new(Point3::new(0.0, 0.0, 1.0), Vector3::new(0.0, 0.0, -1.0));
     assert!(shape("polygon", params.clone()).intersect(&down).is_none());
-    assert!(
-        shape("polygon", params.string("fillrule", "nonzero"))
-            .intersect(&down)
-            .is_some()
-    );
+    assert!(shape("polygon", params.string("fillrule", "nonzero")).intersect(&down).is_some());
 }
 
 #[test]
 fn a_point_on_a_shared_edge_belongs_to_exactly_one_polygon() {
     // A square cut into four triangles around its centre, tested on all edges and vertices of a fine grid.
     let corners = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
-    let parts: Vec<_> = (0..4)
-        .map(|i| edges(&[vec![corners[i], corners[(i + 1) % 4], [4.0, 4.0]]]))
-        .collect();
-    let mirrored: Vec<_> = (0..4)
-        .map(|i| edges(&[vec![corners[(i + 1) % 4], corners[i], [4.0, 4.0]]]))
-        .collect();
+    let parts: Vec<_> =
+        (0..4).map(|i| edges(&[vec![corners[i], corners[(i + 1) % 4], [4.0, 4.0]]])).collect();
+    let mirrored: Vec<_> =
+        (0..4).map(|i| edges(&[vec![corners[(i + 1) % 4], corners[i], [4.0, 4.0]]])).collect();
     for i in 1..32 {
         for j in 1..32 {
             let p = [f64::from(i) * 0.25, f64::from(j) * 0.25];
             for tiling in [&parts, &mirrored] {
                 for rule in [FillRule::EvenOdd, FillRule::NonZero] {
-                    let owners = tiling
-                        .iter()
-                        .filter(|e| rule.contains(p, e.iter().copied()))
-                        .count();
+                    let owners = tiling.iter().filter(|e| rule.contains(p, e.iter().copied())).count();
                     assert_eq!(owners, 1, "{p:?}");
                 }
             }
@@ -124,15 +94,8 @@ fn a_point_on_a_shared_edge_belongs_to_exactly_one_polygon() {
 #[test]
 fn the_edges_of_a_cube_of_polygons_do_not_leak() {
     let corner = |i: usize| Point3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2 & 1) as f32);
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 6, 7, 5],
-        [0, 4, 5, 1],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 5, 7, 3],
-    ]
-    .map(|f| Polygon::new(&[f.map(corner).to_vec()], FillRule::EvenOdd).expect("a square"));
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+        .map(|f| Polygon::new(&[f.map(corner).to_vec()], FillRule::EvenOdd).expect("a square"));
     let centre = DVec3::splat(0.5);
     for axis in 0..3 {
         for i in 0..=64 {
@@ -171,10 +134,7 @@ fn the_normal_follows_the_first_loop_and_uv_its_rectangle() {
     let up = Ray::new(Point3::new(1.5, 4.0, 0.0), Vector3::new(0.0, 0.0, 2.0));
     let s = square.surface(&up, &square.intersect(&up).expect("above"));
     assert_eq!((s.n_g.z, s.uv.x, s.uv.y), (1.0, 0.25, 0.75));
-    assert_eq!(
-        (s.dpdu, s.dpdv),
-        (Vector3::new(2.0, 0.0, 0.0), Vector3::new(0.0, 4.0, 0.0))
-    );
+    assert_eq!((s.dpdu, s.dpdv), (Vector3::new(2.0, 0.0, 0.0), Vector3::new(0.0, 4.0, 0.0)));
 }
 
 #[test]
@@ -189,12 +149,7 @@ fn polygons_that_are_none_are_refused_with_the_reason() {
         };
         build("polygon", params).expect_err("a refusal")
     };
-    let square = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.01],
-    ];
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.01]];
     let said = refusal(&square, &[]);
     assert!(
         said.contains("vertex 3") || said.contains("vertex 0") && said.contains("off the plane"),

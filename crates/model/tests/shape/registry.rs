@@ -11,63 +11,45 @@ use super::{build, points, ray};
 
 /// Parameter sets to try; a new kind needs none if it can be built from defaults.
 fn samples(kind: &str) -> Vec<Params> {
-    let corners = [
-        [-1.0, -1.0, 0.5],
-        [1.0, -1.0, 0.5],
-        [1.0, 1.0, 0.5],
-        [0.2, 0.0, 0.5],
-    ];
+    let corners = [[-1.0, -1.0, 0.5], [1.0, -1.0, 0.5], [1.0, 1.0, 0.5], [0.2, 0.0, 0.5]];
     let (ty, data) = points(&corners);
     let floats = |v: &[f32]| Data::Floats(v.to_vec());
     match kind {
         "polygon" => vec![Params::new().with("P", ty, data)],
         "trianglemesh" => {
             let indices = Data::Ints(vec![0, 1, 2, 0, 2, 3]);
-            vec![
-                Params::new()
-                    .with("P", ty, data)
-                    .with("indices", ValueType::Integer, indices),
-            ]
+            vec![Params::new().with("P", ty, data).with("indices", ValueType::Integer, indices)]
         }
         "sphere" => vec![
             Params::new(),
-            Params::new()
-                .float("radius", 0.7)
-                .float("zmin", -0.2)
-                .float("zmax", 0.6)
-                .float("phimax", 200.0),
+            Params::new().float("radius", 0.7).float("zmin", -0.2).float("zmax", 0.6).float("phimax", 200.0),
         ],
         "disk" => vec![
             Params::new(),
-            Params::new()
-                .float("height", -0.3)
-                .float("innerradius", 0.4)
-                .float("phimax", 90.0),
+            Params::new().float("height", -0.3).float("innerradius", 0.4).float("phimax", 90.0),
         ],
         "plane" => vec![
             Params::new(),
-            Params::new()
-                .with("normal", ValueType::Vector3, floats(&[1.0, 2.0, -3.0]))
-                .with("point", ValueType::Point3, floats(&[0.2, 0.1, -0.3])),
+            Params::new().with("normal", ValueType::Vector3, floats(&[1.0, 2.0, -3.0])).with(
+                "point",
+                ValueType::Point3,
+                floats(&[0.2, 0.1, -0.3]),
+            ),
         ],
         _ => vec![Params::new()],
     }
 }
 
 fn shapes() -> Vec<(&'static str, Box<dyn Shape>)> {
-    let all = SHAPES
-        .iter()
-        .flat_map(|e| samples(e.schema.name).into_iter().map(|p| (e.schema.name, p)));
-    all.filter_map(
-        |(kind, params)| match build(kind, params).expect("sample parameters are sound") {
-            Geometry::Shape(shape) => Some((kind, shape)),
-            Geometry::Mesh(mesh) => {
-                let s = mesh_surface(&mesh, 0, 0.25, 0.25);
-                assert!(s.n_g.z == 1.0 && s.p.z == 0.5);
-                None
-            }
-        },
-    )
+    let all = SHAPES.iter().flat_map(|e| samples(e.schema.name).into_iter().map(|p| (e.schema.name, p)));
+    all.filter_map(|(kind, params)| match build(kind, params).expect("sample parameters are sound") {
+        Geometry::Shape(shape) => Some((kind, shape)),
+        Geometry::Mesh(mesh) => {
+            let s = mesh_surface(&mesh, 0, 0.25, 0.25);
+            assert!(s.n_g.z == 1.0 && s.p.z == 0.5);
+            None
+        }
+    })
     .collect()
 }
 
@@ -103,10 +85,7 @@ fn hits_lie_where_the_ray_and_the_bounds_say_and_are_hit_again() {
             );
             assert!((s.n_g.length() - 1.0).abs() < 1e-6 && s.n_s.dot(s.n_g) > 0.0);
             let (du, dv) = (s.dpdu.dot(s.n_g).abs(), s.dpdv.dot(s.n_g).abs());
-            assert!(
-                du <= 1e-5 * s.dpdu.length() && dv <= 1e-5 * s.dpdv.length(),
-                "{kind}: {s:?}"
-            );
+            assert!(du <= 1e-5 * s.dpdu.length() && dv <= 1e-5 * s.dpdv.length(), "{kind}: {s:?}");
             let grown = shape.bounds().with(s.p);
             assert!(
                 grown == shape.bounds() || (grown.diagonal() - shape.bounds().diagonal()).length() < 1e-6
@@ -118,25 +97,12 @@ fn hits_lie_where_the_ray_and_the_bounds_say_and_are_hit_again() {
             );
             // Nothing is nearer, and the interval's ends are respected.
             assert_eq!(shape.intersect(&Ray { t_max: hit.t, ..ray }), Some(hit));
-            assert_eq!(
-                shape.intersect(&Ray {
-                    t_max: hit.t.next_down(),
-                    ..ray
-                }),
-                None
-            );
-            assert!(
-                shape
-                    .intersect(&Ray { t_min: hit.t, ..ray })
-                    .is_none_or(|h| h.t > hit.t)
-            );
+            assert_eq!(shape.intersect(&Ray { t_max: hit.t.next_down(), ..ray }), None);
+            assert!(shape.intersect(&Ray { t_min: hit.t, ..ray }).is_none_or(|h| h.t > hit.t));
             // Seen along the normal, from either side.
             for side in [1e-3, -1e-3] {
                 let n = Vector3::from(s.n_g) * side;
-                let close = Ray {
-                    t_max: 2.0,
-                    ..Ray::new(s.p + n, -n)
-                };
+                let close = Ray { t_max: 2.0, ..Ray::new(s.p + n, -n) };
                 let edge = shape.intersect(&close).is_none();
                 assert!(!edge || kind != "plane");
                 if let Some(again) = shape.intersect(&close) {
@@ -156,22 +122,13 @@ fn hits_lie_where_the_ray_and_the_bounds_say_and_are_hit_again() {
 fn degenerate_rays_give_neither_hits_nor_nan() {
     let (nan, inf) = (f64::NAN, f64::INFINITY);
     for (kind, shape) in shapes() {
-        for d in [
-            DVec3::ZERO,
-            DVec3::splat(nan),
-            DVec3::new(inf, 0.0, 0.0),
-            DVec3::new(0.0, nan, 1.0),
-        ] {
+        for d in [DVec3::ZERO, DVec3::splat(nan), DVec3::new(inf, 0.0, 0.0), DVec3::new(0.0, nan, 1.0)] {
             for o in [DVec3::ZERO, DVec3::splat(2.0)] {
                 assert_eq!(shape.intersect(&ray(o, d)), None, "{kind} {o} {d}");
             }
         }
         for o in [DVec3::splat(nan), DVec3::splat(inf), DVec3::new(-inf, 0.0, 0.0)] {
-            assert_eq!(
-                shape.intersect(&ray(o, DVec3::new(0.1, -0.7, 0.3))),
-                None,
-                "{kind} {o}"
-            );
+            assert_eq!(shape.intersect(&ray(o, DVec3::new(0.1, -0.7, 0.3))), None, "{kind} {o}");
         }
         for (o, d) in [(1e30, -1e-30), (1e-30, -1e30), (3.0, -1e-38), (1e15, -1e15)] {
             let ray = ray(DVec3::splat(o), DVec3::splat(d));
@@ -187,14 +144,8 @@ fn degenerate_rays_give_neither_hits_nor_nan() {
         let axis = Ray::new(Point3::new(0.0, 0.0, 3.0), Vector3::new(0.0, 0.0, -1.0));
         if let Some(hit) = shape.intersect(&axis) {
             let s = shape.surface(&axis, &hit);
-            let numbers = [
-                s.uv.x,
-                s.uv.y,
-                s.dpdu.length(),
-                s.dpdv.length(),
-                s.n_s.length(),
-                s.p_error.length(),
-            ];
+            let numbers =
+                [s.uv.x, s.uv.y, s.dpdu.length(), s.dpdv.length(), s.n_s.length(), s.p_error.length()];
             assert!(numbers.iter().all(|x| x.is_finite()), "{kind}: {s:?}");
         }
     }

@@ -19,11 +19,7 @@ fn placement(random: &mut Random, scale: f64) -> Transform {
     let stretch = DVec3::new(1.0, random.between(0.3, 3.0), random.between(-2.0, -0.5));
     let stretch = if random.unit() < 0.5 { stretch } else { DVec3::ONE };
     let away = random.direction() * random.between(0.0, 20.0);
-    Transform::from_f64(&DAffine3::from_scale_rotation_translation(
-        stretch * scale,
-        q,
-        away * scale,
-    ))
+    Transform::from_f64(&DAffine3::from_scale_rotation_translation(stretch * scale, q, away * scale))
 }
 
 /// A direction on the given side, from nearly tangent to steep.
@@ -74,12 +70,7 @@ fn grazing_rays_never_meet_the_surface_they_leave() {
     let polygon = Polygon::new(&[outline], FillRule::EvenOdd).expect("a polygon");
     sweep("disk", &Disk::new(0.1, 1.0, 0.0, 360.0), 1.0, false);
     sweep("polygon", &polygon, 1.0, false);
-    sweep(
-        "plane",
-        &Plane::new(Point3::new(0.1, 0.2, 0.3), Vector3::new(0.3, 1.0, -0.2), 1.0),
-        1.0,
-        false,
-    );
+    sweep("plane", &Plane::new(Point3::new(0.1, 0.2, 0.3), Vector3::new(0.3, 1.0, -0.2), 1.0), 1.0, false);
     sweep("sphere", &Sphere::new(1.0), 1.0, true);
     for size in SCALES.map(|e| 10f64.powi(e)) {
         sweep("sphere of its own size", &Sphere::new(size as f32), size, true);
@@ -104,27 +95,18 @@ fn grazing_rays_never_meet_the_triangle_they_leave() {
     for scale in SCALES.map(|e| 10f64.powi(e)) {
         for _ in 0..5000 {
             let m = placement(&mut random, scale);
-            let positions: Vec<_> = (0..3)
-                .map(|_| Point3::from_f64(random.direction() * 2.0))
-                .collect();
+            let positions: Vec<_> = (0..3).map(|_| Point3::from_f64(random.direction() * 2.0)).collect();
             let corners = [0, 1, 2].map(|i| positions[i].to_f64());
             let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
             if e1.cross(e2).length() < 0.05 * e1.length() * e2.length() {
                 continue;
             }
-            let mesh = Mesh {
-                positions,
-                indices: vec![[0, 1, 2]],
-                ..Mesh::default()
-            };
+            let mesh = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
             let (u, v) = (random.between(0.0, 0.5) as f32, random.between(0.0, 0.5) as f32);
             let s = mesh_surface(&mesh, 0, u, v).placed(&m, false);
             for side in [1.0, -1.0] {
                 let spawned = m.inverse().ray(&s.spawn(leaving(&mut random, &s, side), 0.0));
-                assert!(
-                    !meets(&spawned, corners),
-                    "scale {scale:e} side {side}: {s:?} {spawned:?}"
-                );
+                assert!(!meets(&spawned, corners), "scale {scale:e} side {side}: {s:?} {spawned:?}");
             }
         }
     }
@@ -146,16 +128,10 @@ fn shadow_rays_between_two_sides_of_a_sphere_are_blocked() {
             // A lamp straight behind the sphere.
             let lamp = m.point(Point3::from_f64(-outside.normalize() * 50.0));
             let lit = m.inverse().ray(&s.spawn_to(lamp, 0.0));
-            assert!(
-                sphere.intersect(&lit).is_some(),
-                "scale {scale:e}: light leaks to {s:?}"
-            );
+            assert!(sphere.intersect(&lit).is_some(), "scale {scale:e}: light leaks to {s:?}");
             let front = m.point(Point3::from_f64(hit_point(&aimed, hit.t) * 50.0));
             let free = m.inverse().ray(&s.spawn_to(front, 0.0));
-            assert!(
-                sphere.intersect(&free).is_none(),
-                "scale {scale:e}: {s:?} shadows itself"
-            );
+            assert!(sphere.intersect(&free).is_none(), "scale {scale:e}: {s:?} shadows itself");
         }
     }
 }

@@ -13,19 +13,12 @@ use super::{build, ray, shape};
 fn the_silhouette_is_where_the_tangent_cone_says() {
     // G1: radius 1 at distance 3, tan = 1 / sqrt(8).
     let sphere = Sphere::new(1.0);
-    let hits = |tan: f64| {
-        sphere
-            .intersect(&ray(DVec3::new(0.0, 0.0, -3.0), DVec3::new(tan, 0.0, 1.0)))
-            .is_some()
-    };
+    let hits =
+        |tan: f64| sphere.intersect(&ray(DVec3::new(0.0, 0.0, -3.0), DVec3::new(tan, 0.0, 1.0))).is_some();
     let (mut inside, mut outside) = (0.0, 1.0);
     for _ in 0..40 {
         let middle = 0.5 * (inside + outside);
-        if hits(middle) {
-            inside = middle
-        } else {
-            outside = middle
-        }
+        if hits(middle) { inside = middle } else { outside = middle }
     }
     assert!((inside - 1.0 / 8f64.sqrt()).abs() < 1e-7, "{inside}");
 }
@@ -54,9 +47,7 @@ fn textbook(ray: &Ray, radius: f64) -> Option<DVec3> {
     let (o, d) = (ray.o.to_f64(), ray.d.to_f64());
     let (a, b, c) = (d.dot(d), 2.0 * o.dot(d), o.dot(o) - radius * radius);
     let root = (b * b - 4.0 * a * c).sqrt();
-    let t = [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)]
-        .into_iter()
-        .find(|t| *t > 1e-9)?;
+    let t = [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)].into_iter().find(|t| *t > 1e-9)?;
     Some(o + d * t)
 }
 
@@ -75,11 +66,7 @@ fn the_error_bound_contains_the_exact_point() {
             };
             let s = sphere.surface(&ray, &hit);
             let off = (s.p.to_f64() - exact).abs();
-            assert!(
-                off.cmple(s.p_error.to_f64() + 1e-10 * r).all(),
-                "{ray:?}: {off:?} > {:?}",
-                s.p_error
-            );
+            assert!(off.cmple(s.p_error.to_f64() + 1e-10 * r).all(), "{ray:?}: {off:?} > {:?}", s.p_error);
         }
     }
 }
@@ -99,15 +86,8 @@ fn partials_are_derivatives_of_the_parametrisation() {
         let hit = cut.intersect(&inward).expect("aimed at the surface");
         let s = cut.surface(&inward, &hit);
         let h = 1e-5;
-        let (du, dv) = (
-            (at(u + h, v) - at(u - h, v)) / (2.0 * h),
-            (at(u, v + h) - at(u, v - h)) / (2.0 * h),
-        );
-        assert!(
-            (f64::from(s.uv.x) - u).abs() < 1e-6 && (f64::from(s.uv.y) - v).abs() < 1e-6,
-            "{:?}",
-            s.uv
-        );
+        let (du, dv) = ((at(u + h, v) - at(u - h, v)) / (2.0 * h), (at(u, v + h) - at(u, v - h)) / (2.0 * h));
+        assert!((f64::from(s.uv.x) - u).abs() < 1e-6 && (f64::from(s.uv.y) - v).abs() < 1e-6, "{:?}", s.uv);
         assert!((s.dpdu.to_f64() - du).length() < 1e-4 && (s.dpdv.to_f64() - dv).length() < 1e-4);
         assert!(s.dpdu.cross(s.dpdv).dot(s.n_g) > 0.0 && s.n_g.dot(Vector3::from_f64(p)) > 0.0);
     }
@@ -148,13 +128,7 @@ fn spheres_of_nothing_are_refused() {
 fn rays_from_a_point_exactly_on_the_sphere_do_not_meet_it_at_once() {
     let sphere = Sphere::new(1.0);
     let o = Point3::new(1.0, 0.0, 0.0);
-    assert!(
-        sphere
-            .intersect(&Ray::new(o, Vector3::new(1.0, 0.3, 0.0)))
-            .is_none()
-    );
-    let across = sphere
-        .intersect(&Ray::new(o, Vector3::new(-0.5, 0.0, 0.0)))
-        .expect("the far side");
+    assert!(sphere.intersect(&Ray::new(o, Vector3::new(1.0, 0.3, 0.0))).is_none());
+    let across = sphere.intersect(&Ray::new(o, Vector3::new(-0.5, 0.0, 0.0))).expect("the far side");
     assert_eq!(across.t, 4.0);
 }

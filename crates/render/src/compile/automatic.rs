@@ -65,8 +65,5 @@ pub(super) fn lights(
         node,
         world_from_light: Motion::still(DAffine3::IDENTITY),
     };
-    vec![
-        light("studio sky", Node::new("gradientsky", sky)),
-        light("studio key", Node::new("distant", key)),
-    ]
+    vec![light("studio sky", Node::new("gradientsky", sky)), light("studio key", Node::new("distant", key))]
 }

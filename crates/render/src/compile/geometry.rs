@@ -94,7 +94,11 @@ pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bou
 
 impl Placing<'_> {
     /// Places all shapes and builds the kernel; `None` if there was something to complain about.
-    pub(super) fn place(&self, geometry: Vec<Option<Geometry>>, diagnostics: &mut Diagnostics) -> Option<Placed> {
+    pub(super) fn place(
+        &self,
+        geometry: Vec<Option<Geometry>>,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Placed> {
         let mut uses = vec![0u32; self.desc.meshes.len()];
         for shape in &self.desc.shapes {
             if let ShapeSource::Mesh(id) = shape.source {
@@ -189,7 +193,8 @@ impl Placing<'_> {
 fn merge(meshes: Vec<PendingMesh>) -> (Vec<MergedMesh>, Triangles) {
     let mut merged = Vec::new();
     let mut all = Triangles::default();
-    for PendingMesh { object, mesh, motion, .. } in meshes.into_iter().filter(|m| !m.mesh.indices.is_empty()) {
+    for PendingMesh { object, mesh, motion, .. } in meshes.into_iter().filter(|m| !m.mesh.indices.is_empty())
+    {
         let mesh = baked(&mesh, &motion.at(0.0));
         let base = all.positions.len() as u32;
         let first_triangle = all.indices.len() as u32;

@@ -11,7 +11,8 @@ use durer_model::{
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, LightDesc, Missing, Node, Params, SceneDesc, ShapeSource, TextureDesc, find,
+    Args, Assets, Diagnostics, Entry, LightDesc, Missing, Node, Params, SceneDesc, ShapeSource, TextureDesc,
+    find,
 };
 
 use crate::integrator::{INTEGRATORS, Integrator, NOT_YET};
@@ -80,7 +81,9 @@ impl Builder<'_> {
                 self.diagnostics.warning(desc.node.at.clone(), message);
                 continue;
             }
-            let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else { continue };
+            let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
+                continue;
+            };
             let world_from_light = desc.world_from_light.at(0.0);
             let transform = Transform::from_f64(&(DAffine3::from_translation(to_render) * world_from_light));
             if !transform.is_invertible() {
@@ -103,10 +106,11 @@ fn stand_in(node: &Node, family: &str, not_yet: &[(&str, &str)], diagnostics: &m
     let Some((_, instead)) = not_yet.iter().find(|(word, _)| *word == node.kind) else { return node.clone() };
     let message = format!("{family} \"{}\" is not supported yet; \"{instead}\" is used", node.kind);
     diagnostics.warning(node.at.clone(), message);
-    let params = node.params.iter().filter(|p| p.name == "reflectance").cloned().fold(Params::new(), |mut all, p| {
-        all.push(p);
-        all
-    });
+    let params =
+        node.params.iter().filter(|p| p.name == "reflectance").cloned().fold(Params::new(), |mut all, p| {
+            all.push(p);
+            all
+        });
     Node { kind: (*instead).to_owned(), params, at: node.at.clone() }
 }
 
@@ -121,7 +125,8 @@ pub(super) fn default_material(diagnostics: &mut Diagnostics) -> Option<Box<dyn 
 pub fn integrator(node: &Node, diagnostics: &mut Diagnostics) -> Option<Box<dyn Integrator>> {
     let default = super::default_integrator();
     let node = if NOT_YET.contains(&node.kind.as_str()) {
-        let message = format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, default.kind);
+        let message =
+            format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, default.kind);
         diagnostics.warning(node.at.clone(), message);
         &default
     } else {

@@ -147,7 +147,9 @@ impl<'a> Job<'a> {
             let mut pixels = Vec::new();
             loop {
                 let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(&tile) = tiles.get(index).filter(|_| !cancel.load(Ordering::Relaxed)) else { return };
+                let Some(&tile) = tiles.get(index).filter(|_| !cancel.load(Ordering::Relaxed)) else {
+                    return;
+                };
                 let counting = {
                     let shared = lock(&shared);
                     shared.film.read(tile, &mut pixels);
@@ -170,7 +172,13 @@ impl<'a> Job<'a> {
         });
     }
 
-    fn tile(&self, tile: Tile, samples: std::ops::Range<u32>, counting: bool, pixels: &mut [Pixel]) -> TileDone {
+    fn tile(
+        &self,
+        tile: Tile,
+        samples: std::ops::Range<u32>,
+        counting: bool,
+        pixels: &mut [Pixel],
+    ) -> TileDone {
         let cx = self.cx();
         let mut done = TileDone { counters: counting.then(Counters::default), ..TileDone::default() };
         let mut out = Contribution::default();

@@ -4,8 +4,8 @@
 //! rounded to the nearest of 256. The rounded curve is a staircase; its 255 steps are computed in f64 when this is
 //! compiled, and looking one up gives what rounding the formula gives for every f32.
 //!
-//! Data pictures (depth, normals, uv, ids) are scaled for the eye as [`develop_data`] says, without the curve. What was not
-//! hit is black.
+//! Data pictures (depth, normals, uv, ids) are scaled for the eye as [`develop_data`] says, without the curve. What was
+//! not hit is black.
 use durer_core::math::float::pow;
 
 use super::ToneMap;
@@ -29,7 +29,11 @@ impl Developed {
     /// # Panics
     /// If `pixels` is not the number of pixels of the picture.
     fn new(width: u32, height: u32, pixels: impl ExactSizeIterator<Item = [u8; 3]>) -> Self {
-        assert_eq!(pixels.len(), width as usize * height as usize, "pixels of a picture of {width} x {height}");
+        assert_eq!(
+            pixels.len(),
+            width as usize * height as usize,
+            "pixels of a picture of {width} x {height}"
+        );
         let mut rgb8 = Vec::with_capacity(3 * pixels.len());
         pixels.for_each(|p| rgb8.extend_from_slice(&p));
         Self { width, height, rgb8 }
@@ -78,7 +82,8 @@ pub struct DataPicture {
     pub depth: Option<DepthRange>,
 }
 
-/// Develops light: `rgb` is linear Rec. 709, one colour per pixel, row by row; `exposure_ev` brightens it by so many stops.
+/// Develops light: `rgb` is linear Rec. 709, one colour per pixel, row by row; `exposure_ev` brightens it by that many
+/// stops.
 ///
 /// # Panics
 /// If `rgb` does not have `width * height` colours.
@@ -119,8 +124,8 @@ fn unit8(v: f32) -> u8 {
     (v * 255.0).round() as u8
 }
 
-/// The colour of an object's number: hues by the golden ratio, so that neighbours lie far apart; saturation and value of
-/// a hash, so that hues that come close later still differ.
+/// The colour of an object's number: hues by the golden ratio, so that neighbours lie far apart; saturation and value
+/// of a hash, so that hues that come close later still differ.
 fn id_colour(id: u32) -> [u8; 3] {
     let hue = id.wrapping_mul(0x9E37_79B9) as f32 / (1u64 << 32) as f32;
     let mut hash = (id ^ (id >> 16)).wrapping_mul(0x7FEB_352D);

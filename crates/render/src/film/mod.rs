@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn sums_follow_the_fixed_tree_bit_for_bit() {
-        for samples in [1, 63, 64, 65, 128, 200, 448, 1024, 1000] {
+        for samples in [1u32, 63, 64, 65, 128, 200, 448, 1024, 1000] {
             let expected = node(0, samples.div_ceil(BLOCK), samples);
             assert_eq!(filled(samples).pixels()[0].sum[0].to_bits(), expected.to_bits(), "{samples} samples");
         }

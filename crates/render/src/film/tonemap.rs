@@ -4,18 +4,21 @@
 //! |---|---|---|
 //! | `none` | c clipped to `[0, 1]` | |
 //! | `agx` | inset, log2, sigmoid, outset: see below | Sobotka, AgX and AgX-S2O3 (2022) |
-//! | `pbr-neutral` | c - f; above K_s = 0.76 the peak is compressed and desaturated | Khronos, PBR Neutral Specification (2024) |
-//! | `aces` | A_out fit(A_in c), fit(v) = (v (v + a) - b) / (v (c v + d) + e) | Hill, fit of ACES 1.0 RRT + sRGB ODT (2016) |
-//! | `reinhard` | c / (1 + L), L = luminance | Reinhard et al. 2002, eq. 3; `--exposure` stands for its key a / L_w |
+//! | `pbr-neutral` | c - f; a peak above 0.76 is compressed, then whitened | Khronos, PBR Neutral Specification |
+//! | `aces` | A_out fit(A_in c), fit(v) = (v (v + a) - b) / (v (c v + d) + e) | Hill, fit of ACES RRT + sRGB ODT |
+//! | `reinhard` | c / (1 + L), L = luminance | Reinhard et al. 2002, eq. 3; `--exposure` is its key a / L_w |
 //!
-//! AgX: (1) inset: every chromaticity moves a fifth of its way to white, c' = 0.8 c + 0.2 s, s = the (X + Y + Z) of c
-//! against that of white (S2O3's `AgX_compressed_matrix(0.2)` in closed form); (2) x = log2(c' / 0.18), from `[-10, 6.5]`
-//! to `[0, 1]`; (3) the sigmoid of Jed Smith through (0, 0), (10/16.5, 1/2) with slope 2, (1, 1), powers 3 (toe) and 3.25
-//! (shoulder), which gives display code values; (4) decoded by the sRGB curve, so that greys come out of our sRGB encoding
-//! with the code values of Sobotka's table; (5) outset: the inverse of (1), in linear light as in later versions of AgX
-//! (the first ended at (3)). No look is applied.
+//! AgX, step by step:
+//! 1. inset: every chromaticity moves a fifth of its way to white, c' = 0.8 c + 0.2 s, where s is the X + Y + Z of c
+//!    against that of white (S2O3's `AgX_compressed_matrix(0.2)` in closed form);
+//! 2. x = log2(c' / 0.18), from `[-10, 6.5]` to `[0, 1]`;
+//! 3. the sigmoid of Jed Smith through (0, 0), (10 / 16.5, 1/2) with slope 2, and (1, 1), powers 3 (toe) and 3.25
+//!    (shoulder): display code values;
+//! 4. these decoded by the sRGB curve, so that our sRGB encoding gives greys the code values of Sobotka's table;
+//! 5. outset: the inverse of 1, in linear light as later versions of AgX do it (the first ended at 3). No look.
 //!
-//! Limits: no gamut mapping; what leaves the display's gamut is clipped per channel. Greys stay exactly grey.
+//! Limits: no gamut mapping; what leaves the display's gamut is clipped per channel. Hill's fit has no exposure of its
+//! own (some viewers divide by 0.6). Greys stay grey to the bit.
 use durer_core::{
     math::float::{lerp, ln, pow, sqr},
     spectrum::Color,
@@ -57,15 +60,14 @@ impl ToneMap {
 
     /// Display light in `[0, 1]` for scene light `rgb`, both linear Rec. 709.
     ///
-    /// Negative light and NaN count as none, infinite light as the brightest: the driver reports them, a picture must not
-    /// break on them.
+    /// Negative light and NaN count as none, infinite light as the brightest: the driver reports them, a picture must
+    /// not break on them.
     #[must_use]
     pub fn apply(self, rgb: [f32; 3]) -> [f32; 3] {
         self.with_agx(rgb, agx_channel)
     }
 
-    /// [`ToneMap::apply`] made ready for many pixels: the same, but for AgX from a table, off by less than 2e-4 (a fiftieth
-    /// of a code value).
+    /// [`ToneMap::apply`] made ready for many pixels: the same, but AgX comes from a table, off by less than 2e-4.
     pub(super) fn prepared(self) -> impl Fn([f32; 3]) -> [f32; 3] {
         let table = if self == Self::Agx { agx_table() } else { Vec::new() };
         move |rgb| self.with_agx(rgb, |v| looked_up(&table, v))
@@ -109,7 +111,8 @@ const ACES_IN: [[f32; 2]; 3] = [[0.35458, 0.04823], [0.07600, 0.01566], [0.02840
 const ACES_OUT: [[f32; 2]; 3] = [[-0.53108, -0.07367], [-0.10208, -0.00605], [-0.00327, -0.07276]];
 
 fn aces(rgb: [f32; 3]) -> [f32; 3] {
-    let fit = |v: f32| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951) + 0.238_081);
+    let fit =
+        |v: f32| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951) + 0.238_081);
     mixed(ACES_OUT, mixed(ACES_IN, rgb).map(|v| fit(v.max(0.0))))
 }
 
@@ -168,8 +171,8 @@ fn agx_sigmoid(x: f32) -> f32 {
     }
 }
 
-/// The table of [`agx_channel`] starts here, below the darkest it shows, and has an entry every 65536 floats: 128 to the
-/// octave for 18 octaves.
+/// The table of [`agx_channel`] starts here, below the darkest it shows, and has an entry every 65536 floats: 128 to
+/// the octave for 18 octaves.
 const TABLE_FROM: f32 = 1.0 / 8192.0;
 const TABLE_SHIFT: u32 = 16;
 const TABLE_CELLS: u32 = 18 << 7;

@@ -3,7 +3,7 @@ use durer_accel::Hit;
 use durer_core::{
     Id,
     math::{Frame, Ray, Vector3},
-    sampling::{Dim, Sampler},
+    sampling::Sampler,
     spectrum::Spectrum,
 };
 use durer_model::{
@@ -68,7 +68,7 @@ impl Shading {
         light: usize,
         sampler: &Sampler,
     ) -> Option<(Spectrum, LightSample)> {
-        let sample = cx.scene.lights[light].sample(cx.basis, self.surface.p, sampler.d2(Dim::Light))?;
+        let sample = cx.scene.lights[light].sample(cx.basis, self.surface.p, sampler)?;
         // Light from the other side of the true surface does not come through, whatever the shading normal says.
         if self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo) {
             return None;

@@ -141,7 +141,8 @@ impl<P: Probe> Walk<'_, P> {
             Some(point) => s.surface.spawn_to(point, parent.ray.time),
             None => s.surface.spawn(sample.wi, parent.ray.time),
         };
-        let shadow = self.probe.ray(id, &parent.child(ray, weight, LIGHT_BRANCH + light as u32), RayKind::Shadow);
+        let shadow =
+            self.probe.ray(id, &parent.child(ray, weight, LIGHT_BRANCH + light as u32), RayKind::Shadow);
         self.rays += 1;
         let visible = !cx.scene.occluded(cx, &ray, self.probe, shadow);
         let event = LightEvent {

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use durer_core::spectrum::Color;
 
 use super::{ParamDefault, ParamSpec, ParamType, Schema};
-use crate::{AssetError, Assets, Data, Diagnostics, Image, Location, Node, Param, TextureDesc, TextureValue, ValueType};
+use crate::{
+    AssetError, Assets, Data, Diagnostics, Image, Location, Node, Param, TextureDesc, TextureValue, ValueType,
+};
 
 /// A colour, or the index of the colour texture that gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +92,8 @@ impl<'a> Args<'a> {
         let name = &param.name;
         if !spec.ty.accepts().contains(&param.ty) {
             let wanted: Vec<_> = spec.ty.accepts().iter().map(|t| t.word()).collect();
-            let message = format!("\"{name}\" is declared {}, expected {}", param.ty.word(), wanted.join(" or "));
+            let message =
+                format!("\"{name}\" is declared {}, expected {}", param.ty.word(), wanted.join(" or "));
             self.error_at(param.at.clone(), message);
             return;
         }
@@ -254,7 +257,9 @@ impl<'a> Args<'a> {
     /// A colour or a colour texture; complains about a texture that does not exist.
     pub fn color_input(&mut self, name: &str) -> ColorInput {
         let Some(param) = self.node.params.get(name) else {
-            let ParamDefault::Triple(rgb) = self.default(name) else { return ColorInput::Constant(Color::BLACK) };
+            let ParamDefault::Triple(rgb) = self.default(name) else {
+                return ColorInput::Constant(Color::BLACK);
+            };
             return ColorInput::Constant(Color { rgb });
         };
         match (param.ty, &param.data) {
@@ -264,7 +269,10 @@ impl<'a> Args<'a> {
             },
             (ValueType::Rgb, Data::Floats(v)) => ColorInput::Constant(rgb(v)),
             (ValueType::Spectrum, Data::Floats(v)) => {
-                self.warning(name, "spectra are read as the mean of their values until spectral rendering exists");
+                self.warning(
+                    name,
+                    "spectra are read as the mean of their values until spectral rendering exists",
+                );
                 let values = v.iter().skip(1).step_by(2);
                 ColorInput::Constant(Color::gray(values.sum::<f32>() / (v.len() / 2).max(1) as f32))
             }
@@ -278,9 +286,9 @@ impl<'a> Args<'a> {
     /// A number or a float texture; complains about a texture that does not exist.
     pub fn float_input(&mut self, name: &str) -> FloatInput {
         match self.node.params.get(name) {
-            Some(param @ Param { ty: ValueType::Texture, data: Data::Strings(v), .. }) => {
-                self.texture(param, v, TextureValue::Float).map_or(FloatInput::Constant(0.0), FloatInput::Texture)
-            }
+            Some(param @ Param { ty: ValueType::Texture, data: Data::Strings(v), .. }) => self
+                .texture(param, v, TextureValue::Float)
+                .map_or(FloatInput::Constant(0.0), FloatInput::Texture),
             _ => FloatInput::Constant(self.float(name)),
         }
     }

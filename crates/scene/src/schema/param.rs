@@ -22,6 +22,8 @@ pub enum ParamType {
     Point2s,
     /// Any number of positions.
     Point3s,
+    /// Any number of directions.
+    Vector3s,
     /// Any number of normals.
     Normals,
     /// Any text.
@@ -48,7 +50,7 @@ impl ParamType {
             Self::Float | Self::Floats => &[V::Float],
             Self::Point2s => &[V::Point2, V::Vector2],
             Self::Point3 | Self::Point3s => &[V::Point3],
-            Self::Vector3 => &[V::Vector3],
+            Self::Vector3 | Self::Vector3s => &[V::Vector3],
             Self::Normals => &[V::Normal],
             Self::Text | Self::Choice(_) | Self::File => &[V::String],
             Self::Color => &[V::Rgb, V::Spectrum, V::Blackbody],
@@ -58,7 +60,10 @@ impl ParamType {
     }
     /// True if it takes any number of values.
     pub fn is_list(self) -> bool {
-        matches!(self, Self::Ints | Self::Floats | Self::Point2s | Self::Point3s | Self::Normals)
+        matches!(
+            self,
+            Self::Ints | Self::Floats | Self::Point2s | Self::Point3s | Self::Vector3s | Self::Normals
+        )
     }
 }
 

@@ -38,12 +38,7 @@ pub(in super::super) fn decode(source: &Source<'_>) -> Result<Image, AssetError>
             *to = *from;
         }
     }
-    Ok(Image {
-        width,
-        height,
-        channels: planes.len() as u32,
-        data: ImageData::F32(data),
-    })
+    Ok(Image { width, height, channels: planes.len() as u32, data: ImageData::F32(data) })
 }
 
 /// All channels of an OpenEXR file as floats, in the order stored: for tests and tools that compare bits. Channels of
@@ -57,25 +52,12 @@ pub fn read_exr_channels(
     limits: durer_scene::Limits,
 ) -> Result<(u32, u32, Vec<NamedChannel>), AssetError> {
     let layers = layers(&Source { bytes, name, limits })?;
-    let size = layers
-        .first()
-        .map_or((0, 0), |l| (l.size.width() as u32, l.size.height() as u32));
+    let size = layers.first().map_or((0, 0), |l| (l.size.width() as u32, l.size.height() as u32));
     let named = |layer: &FlatLayer, channel: &AnyChannel<FlatSamples>| {
-        let prefix = layer
-            .attributes
-            .layer_name
-            .as_ref()
-            .map(|n| format!("{n}."))
-            .unwrap_or_default();
-        NamedChannel {
-            name: format!("{prefix}{}", channel.name),
-            values: floats(&channel.sample_data),
-        }
+        let prefix = layer.attributes.layer_name.as_ref().map(|n| format!("{n}.")).unwrap_or_default();
+        NamedChannel { name: format!("{prefix}{}", channel.name), values: floats(&channel.sample_data) }
     };
-    let channels = layers
-        .iter()
-        .flat_map(|l| l.channel_data.list.iter().map(move |c| named(l, c)))
-        .collect();
+    let channels = layers.iter().flat_map(|l| l.channel_data.list.iter().map(move |c| named(l, c))).collect();
     Ok((size.0, size.1, channels))
 }
 
@@ -110,17 +92,11 @@ fn check_header(source: &Source<'_>, header: &Header) -> Result<(), AssetError> 
         return Err(source.unsupported("an OpenEXR file with deep data"));
     }
     let channels = &header.channels.list;
-    if channels
-        .iter()
-        .any(|c| c.sampling.x() != 1 || c.sampling.y() != 1)
-    {
+    if channels.iter().any(|c| c.sampling.x() != 1 || c.sampling.y() != 1) {
         let reason = "an OpenEXR file with subsampled channels (luminance and chroma); convert it to RGB";
         return Err(source.unsupported(reason));
     }
-    let bytes = channels
-        .iter()
-        .map(|c| if c.sample_type == SampleType::F16 { 2 } else { 4 })
-        .sum();
+    let bytes = channels.iter().map(|c| if c.sample_type == SampleType::F16 { 2 } else { 4 }).sum();
     let size = header.layer_size;
     source.check_size(size.width() as u64, size.height() as u64, bytes, BEST_RATIO)
 }
@@ -138,8 +114,7 @@ fn colour_channels(layer: &FlatLayer) -> Option<Vec<&AnyChannel<FlatSamples>>> {
     for prefix in &prefixes {
         let find = |word: &str| {
             let wanted = format!("{prefix}{word}");
-            list.iter()
-                .find(|c| c.name.to_string().eq_ignore_ascii_case(&wanted))
+            list.iter().find(|c| c.name.to_string().eq_ignore_ascii_case(&wanted))
         };
         for words in [&["R", "G", "B"][..], &["Y"][..]] {
             if let Some(mut found) = words.iter().map(|w| find(w)).collect::<Option<Vec<_>>>() {

@@ -59,29 +59,13 @@ fn text(path: &Path, word: &str) -> Result<Text, WriteError> {
 fn encode(path: &Path, picture: &ExrPicture) -> Result<Vec<u8>, WriteError> {
     let mut list = Vec::with_capacity(picture.channels.len());
     for channel in &picture.channels {
-        check_length(
-            path,
-            &channel.name,
-            channel.values.len(),
-            picture.width,
-            picture.height,
-            1,
-        )?;
-        list.push(AnyChannel::new(
-            text(path, &channel.name)?,
-            FlatSamples::F32(channel.values.clone()),
-        ));
+        let found = channel.values.len();
+        check_length(path, &channel.name, found, [picture.width, picture.height], 1)?;
+        list.push(AnyChannel::new(text(path, &channel.name)?, FlatSamples::F32(channel.values.clone())));
     }
     list.sort_by(|a, b| a.name.cmp(&b.name));
-    if let Some((twin, _)) = list
-        .iter()
-        .zip(list.iter().skip(1))
-        .find(|(a, b)| a.name == b.name)
-    {
-        return Err(WriteError::new(
-            path,
-            format!("two channels are called {}", twin.name),
-        ));
+    if let Some((twin, _)) = list.iter().zip(list.iter().skip(1)).find(|(a, b)| a.name == b.name) {
+        return Err(WriteError::new(path, format!("two channels are called {}", twin.name)));
     }
     let size = Vec2(picture.width as usize, picture.height as usize);
     let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions(size));
@@ -95,17 +79,11 @@ fn encode(path: &Path, picture: &ExrPicture) -> Result<Vec<u8>, WriteError> {
         };
         attributes.other.insert(text(path, key)?, value);
     }
-    let encoding = Encoding {
-        line_order: LineOrder::Increasing,
-        ..Encoding::SMALL_LOSSLESS
-    };
+    let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::SMALL_LOSSLESS };
     let channels = AnyChannels::sort(list.into());
     let layer = Layer::new(size, LayerAttributes::default(), encoding, channels);
     let image: Image<Layer<AnyChannels<FlatSamples>>> = Image::new(attributes, layer);
     let mut bytes = Cursor::new(Vec::new());
-    image
-        .write()
-        .to_buffered(&mut bytes)
-        .map_err(|e| WriteError::new(path, e))?;
+    image.write().to_buffered(&mut bytes).map_err(|e| WriteError::new(path, e))?;
     Ok(bytes.into_inner())
 }

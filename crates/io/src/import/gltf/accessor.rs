@@ -86,10 +86,8 @@ fn strided<'b, 'a>(
         let message = format!("{stride} is less than the {size} bytes of an element");
         return Err(view.element.fault_at("byteStride", message));
     }
-    let reach = count
-        .saturating_sub(1)
-        .checked_mul(stride)
-        .and_then(|b| b.checked_add(size)?.checked_add(start));
+    let reach =
+        count.saturating_sub(1).checked_mul(stride).and_then(|b| b.checked_add(size)?.checked_add(start));
     match (reach, view.bytes.get(start..)) {
         (Some(reach), Some(bytes)) if reach <= view.bytes.len() => Ok(Strided { bytes, stride }),
         _ => {
@@ -134,15 +132,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
             None => None,
         };
         let normalized = element.flag("normalized")?;
-        Ok(Self {
-            element,
-            count,
-            lanes,
-            component,
-            normalized,
-            base,
-            sparse,
-        })
+        Ok(Self { element, count, lanes, component, normalized, base, sparse })
     }
 
     /// All elements, or those that `which` names, as floats; normalised integers become fractions of 1. The accessor
@@ -161,9 +151,9 @@ impl<'b, 'a> Accessor<'b, 'a> {
         match self.component {
             Component::I8 => self.gather(n, |[b]: [u8; 1]| (f32::from(b as i8) * s8).max(floor)),
             Component::U8 => self.gather(n, |[b]: [u8; 1]| f32::from(b) * u8s),
-            Component::I16 => self.gather(n, |b: [u8; 2]| {
-                (f32::from(i16::from_le_bytes(b)) * s16).max(floor)
-            }),
+            Component::I16 => {
+                self.gather(n, |b: [u8; 2]| (f32::from(i16::from_le_bytes(b)) * s16).max(floor))
+            }
             Component::U16 => self.gather(n, |b: [u8; 2]| f32::from(u16::from_le_bytes(b)) * u16s),
             Component::U32 => self.gather(n, |b: [u8; 4]| u32::from_le_bytes(b) as f32 * u32s),
             Component::F32 => self.gather(n, f32::from_le_bytes),
@@ -193,10 +183,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
         }
         if let (Some(_), Some(which)) = (&self.sparse, which) {
             let all = self.gather((document, None), convert)?;
-            return Ok(which
-                .iter()
-                .filter_map(|&i| all.get(i as usize).copied())
-                .collect());
+            return Ok(which.iter().filter_map(|&i| all.get(i as usize).copied()).collect());
         }
         let count = which.map_or(self.count, <[u32]>::len);
         document.spend(&self.element, count, N * size_of::<T>())?;
@@ -249,25 +236,13 @@ impl<'b, 'a> Sparse<'b, 'a> {
         }
         let places = strided(document, buffers, &indices, count, place_type.size())?;
         let values = strided(document, buffers, &values, count, size)?;
-        Ok(Self {
-            places,
-            place_type,
-            count,
-            values,
-            element: indices,
-        })
+        Ok(Self { places, place_type, count, values, element: indices })
     }
     fn place(&self, i: usize) -> usize {
         match self.place_type {
             Component::U8 => self.places.row::<1, 1>(i).map_or(0, |[[b]]| usize::from(b)),
-            Component::U16 => self
-                .places
-                .row::<1, 2>(i)
-                .map_or(0, |[b]| usize::from(u16::from_le_bytes(b))),
-            _ => self
-                .places
-                .row::<1, 4>(i)
-                .map_or(0, |[b]| u32::from_le_bytes(b) as usize),
+            Component::U16 => self.places.row::<1, 2>(i).map_or(0, |[b]| usize::from(u16::from_le_bytes(b))),
+            _ => self.places.row::<1, 4>(i).map_or(0, |[b]| u32::from_le_bytes(b) as usize),
         }
     }
 }

@@ -37,19 +37,13 @@ pub(super) fn parse_uri<'a>(element: &Element<'a>) -> Checked<Uri<'a>> {
             );
         }
         let path = percent_decode_str(uri).decode_utf8();
-        return path
-            .map(Uri::Path)
-            .map_err(|_| element.fault("the percent-encoded path is not UTF-8"));
+        return path.map(Uri::Path).map_err(|_| element.fault("the percent-encoded path is not UTF-8"));
     };
-    let (kind, data) = rest
-        .split_once(',')
-        .ok_or_else(|| element.fault("a data: URI without comma"))?;
+    let (kind, data) = rest.split_once(',').ok_or_else(|| element.fault("a data: URI without comma"))?;
     if !kind.ends_with(";base64") {
         return Ok(Uri::Data(percent_decode_str(data).collect()));
     }
-    let bytes = BASE64
-        .decode(data)
-        .map_err(|e| element.fault(format!("not valid base64: {e}")))?;
+    let bytes = BASE64.decode(data).map_err(|e| element.fault(format!("not valid base64: {e}")))?;
     Ok(Uri::Data(bytes))
 }
 
@@ -90,17 +84,11 @@ impl<'a> Buffers<'a> {
     pub(super) fn load(document: &Document<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Self> {
         let buffers = document.root.list("buffers")?.into_iter().enumerate();
         let load = |(index, element)| load(&element, bin.filter(|_| index == 0), assets);
-        Ok(Self {
-            list: buffers.map(load).collect(),
-        })
+        Ok(Self { list: buffers.map(load).collect() })
     }
     /// Bytes of all buffers together.
     pub(super) fn total(&self) -> u64 {
-        self.list
-            .iter()
-            .flatten()
-            .map(|b| b.as_slice().len() as u64)
-            .sum()
+        self.list.iter().flatten().map(|b| b.as_slice().len() as u64).sum()
     }
     /// The buffer view that `reference` names by index.
     pub(super) fn view<'b>(
@@ -118,22 +106,12 @@ impl<'a> Buffers<'a> {
         };
         let start = element.index_or("byteOffset", 0)?;
         let size = element.required("byteLength")?.index()?;
-        let view = bytes
-            .get(start..)
-            .and_then(|rest| rest.get(..size))
-            .ok_or_else(|| {
-                let reach = start.saturating_add(size);
-                element.fault(format!(
-                    "reaches to byte {reach}, but the buffer has {}",
-                    bytes.len()
-                ))
-            })?;
+        let view = bytes.get(start..).and_then(|rest| rest.get(..size)).ok_or_else(|| {
+            let reach = start.saturating_add(size);
+            element.fault(format!("reaches to byte {reach}, but the buffer has {}", bytes.len()))
+        })?;
         let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
-        Ok(View {
-            bytes: view,
-            stride,
-            element,
-        })
+        Ok(View { bytes: view, stride, element })
     }
 }
 

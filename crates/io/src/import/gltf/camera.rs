@@ -11,13 +11,8 @@ use super::element::{Checked, Element};
 fn rigid(world: &DAffine3) -> DAffine3 {
     let m = world.matrix3;
     let z = m.z_axis.try_normalize().unwrap_or(DVec3::Z);
-    let y = (m.y_axis - z * z.dot(m.y_axis))
-        .try_normalize()
-        .unwrap_or_else(|| z.any_orthonormal_vector());
-    DAffine3 {
-        matrix3: DMat3::from_cols(y.cross(z), y, z),
-        translation: world.translation,
-    }
+    let y = (m.y_axis - z * z.dot(m.y_axis)).try_normalize().unwrap_or_else(|| z.any_orthonormal_vector());
+    DAffine3 { matrix3: DMat3::from_cols(y.cross(z), y, z), translation: world.translation }
 }
 
 /// The camera `element`, carried by a node at `world`. glTF cameras look along -z, ours along +z, with the same x and
@@ -32,46 +27,28 @@ pub(super) fn camera(element: &Element<'_>, name: &str, world: &DAffine3) -> Che
         }
     };
     let placement = rigid(world) * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
-    Ok(CameraDesc {
-        name: name.to_owned(),
-        node,
-        world_from_camera: Motion::still(placement),
-    })
+    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera: Motion::still(placement) })
 }
 
 fn perspective(element: &Element<'_>) -> Checked<Node> {
     let yfov = element.required("yfov")?;
     let angle = yfov.number()?;
     if !(angle > 0.0 && angle < std::f64::consts::PI) {
-        return Err(yfov.fault(format!(
-            "expected an angle between 0 and pi radians, found {angle}"
-        )));
+        return Err(yfov.fault(format!("expected an angle between 0 and pi radians, found {angle}")));
     }
     // aspectRatio is not followed: it would crop or stretch the film the user asks for.
-    Ok(Node::new(
-        "perspective",
-        Params::new()
-            .float("fov", angle.to_degrees() as f32)
-            .string("fovaxis", "y"),
-    ))
+    Ok(Node::new("perspective", Params::new().float("fov", angle.to_degrees() as f32).string("fovaxis", "y")))
 }
 
 fn orthographic(element: &Element<'_>) -> Checked<Node> {
     let half = |key| {
         let size = element.required(key)?;
         let value = size.number()?.abs() as f32;
-        if value > 0.0 {
-            Ok(value)
-        } else {
-            Err(size.fault("expected a number other than 0"))
-        }
+        if value > 0.0 { Ok(value) } else { Err(size.fault("expected a number other than 0")) }
     };
     let (x, y) = (half("xmag")?, half("ymag")?);
     let window = Data::Floats(vec![-x, x, -y, y]);
-    Ok(Node::new(
-        "orthographic",
-        Params::new().with("screenwindow", ValueType::Float, window),
-    ))
+    Ok(Node::new("orthographic", Params::new().with("screenwindow", ValueType::Float, window)))
 }
 
 /// The light `element` of KHR_lights_punctual, carried by a node at `world`. Its photometric numbers (candela, lux)
@@ -93,22 +70,13 @@ pub(super) fn light(element: &Element<'_>, name: &str, world: &DAffine3) -> Chec
         "spot" => {
             let (outer, inner) = cone(element)?;
             let params = aim(Params::new().rgb("I", power));
-            Node::new(
-                "spot",
-                params
-                    .float("coneangle", outer)
-                    .float("conedeltaangle", outer - inner),
-            )
+            Node::new("spot", params.float("coneangle", outer).float("conedeltaangle", outer - inner))
         }
         other => {
             return Err(kind.fault(format!("expected point, directional or spot, found \"{other}\"")));
         }
     };
-    Ok(LightDesc {
-        name: name.to_owned(),
-        node,
-        world_from_light: Motion::still(rigid(world)),
-    })
+    Ok(LightDesc { name: name.to_owned(), node, world_from_light: Motion::still(rigid(world)) })
 }
 
 /// Outer and inner angle of a spot light in degrees.

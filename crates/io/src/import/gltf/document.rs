@@ -24,14 +24,7 @@ impl<'a> Document<'a> {
     /// The document `root` of `file`.
     pub(super) fn new(root: Element<'a>, file: String, limits: Limits) -> Self {
         let complaints = RefCell::default();
-        Self {
-            root,
-            limits,
-            file,
-            complaints,
-            said: RefCell::default(),
-            budget: Cell::new(0),
-        }
+        Self { root, limits, file, complaints, said: RefCell::default(), budget: Cell::new(0) }
     }
     /// Element of the list `list` that `reference` names by index.
     pub(super) fn item(&self, list: &str, reference: &Element<'a>) -> Checked<Element<'a>> {
@@ -40,30 +33,19 @@ impl<'a> Document<'a> {
             return Ok(item);
         }
         let count = self.root.list(list)?.len();
-        Err(reference.fault(format!(
-            "refers to /{list}/{index}, but there are only {count} {list}"
-        )))
+        Err(reference.fault(format!("refers to /{list}/{index}, but there are only {count} {list}")))
     }
     /// [`Self::item`] for the optional member `key` of `from`.
     pub(super) fn member(&self, from: &Element<'a>, key: &str, list: &str) -> Checked<Option<Element<'a>>> {
-        from.get(key)?
-            .map(|reference| self.item(list, &reference))
-            .transpose()
+        from.get(key)?.map(|reference| self.item(list, &reference)).transpose()
     }
 
     fn location(&self, pointer: &str) -> Location {
-        Location::Path {
-            file: self.file.clone(),
-            pointer: pointer.to_owned(),
-        }
+        Location::Path { file: self.file.clone(), pointer: pointer.to_owned() }
     }
     /// Adds an error, once: many things may fail by the same cause.
     pub(super) fn error(&self, fault: Fault) {
-        if !self
-            .said
-            .borrow_mut()
-            .insert(format!("{} {}", fault.pointer, fault.message))
-        {
+        if !self.said.borrow_mut().insert(format!("{} {}", fault.pointer, fault.message)) {
             return;
         }
         let mut complaints = self.complaints.borrow_mut();
@@ -83,16 +65,12 @@ impl<'a> Document<'a> {
     pub(super) fn warn(&self, at: &Element<'_>, message: impl Into<String>) {
         let message = message.into();
         if self.said.borrow_mut().insert(message.clone()) {
-            self.complaints
-                .borrow_mut()
-                .warning(self.location(at.pointer()), message);
+            self.complaints.borrow_mut().warning(self.location(at.pointer()), message);
         }
     }
     /// Adds a note.
     pub(super) fn note(&self, at: &Element<'_>, message: impl Into<String>) {
-        self.complaints
-            .borrow_mut()
-            .note(self.location(at.pointer()), message);
+        self.complaints.borrow_mut().note(self.location(at.pointer()), message);
     }
     /// True if an error was found.
     pub(super) fn has_errors(&self) -> bool {
@@ -106,8 +84,7 @@ impl<'a> Document<'a> {
     /// Sets what geometry may unpack to, from the size of the buffers it is unpacked from. Quantised, sparse and
     /// shared accessors make arrays grow a few times; a file that wants more than this is an attack.
     pub(super) fn set_budget(&self, buffer_bytes: u64) {
-        self.budget
-            .set(buffer_bytes.saturating_mul(256).saturating_add(64 << 20));
+        self.budget.set(buffer_bytes.saturating_mul(256).saturating_add(64 << 20));
     }
     /// Takes `bytes` from that budget before they are allocated.
     pub(super) fn spend(&self, at: &Element<'_>, count: usize, size: usize) -> Checked<()> {

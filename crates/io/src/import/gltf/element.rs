@@ -36,10 +36,7 @@ fn kind(value: &Value) -> &'static str {
 impl<'a> Element<'a> {
     /// The whole document.
     pub(super) fn root(value: &'a Value) -> Self {
-        Self {
-            value,
-            pointer: String::new(),
-        }
+        Self { value, pointer: String::new() }
     }
     /// JSON pointer.
     pub(super) fn pointer(&self) -> &str {
@@ -47,29 +44,18 @@ impl<'a> Element<'a> {
     }
     /// A complaint about this place.
     pub(super) fn fault(&self, message: impl Into<String>) -> Fault {
-        Fault {
-            pointer: self.pointer.clone(),
-            message: message.into(),
-            hint: None,
-        }
+        Fault { pointer: self.pointer.clone(), message: message.into(), hint: None }
     }
     /// A complaint about the member `key`, whether or not it is written.
     pub(super) fn fault_at(&self, key: &str, message: impl Into<String>) -> Fault {
-        Fault {
-            pointer: format!("{}/{key}", self.pointer),
-            message: message.into(),
-            hint: None,
-        }
+        Fault { pointer: format!("{}/{key}", self.pointer), message: message.into(), hint: None }
     }
     fn expected(&self, what: &str) -> Fault {
         self.fault(format!("expected {what}, found {}", kind(self.value)))
     }
     fn child(&self, key: &str, value: &'a Value) -> Self {
         let key = key.replace('~', "~0").replace('/', "~1");
-        Self {
-            value,
-            pointer: format!("{}/{key}", self.pointer),
-        }
+        Self { value, pointer: format!("{}/{key}", self.pointer) }
     }
     /// The member `key` of an object, if there is one.
     pub(super) fn get(&self, key: &str) -> Checked<Option<Self>> {
@@ -78,8 +64,7 @@ impl<'a> Element<'a> {
     }
     /// The member `key` of an object.
     pub(super) fn required(&self, key: &str) -> Checked<Self> {
-        self.get(key)?
-            .ok_or_else(|| self.fault(format!("\"{key}\" is missing")))
+        self.get(key)?.ok_or_else(|| self.fault(format!("\"{key}\" is missing")))
     }
     /// The extension object `name`.
     pub(super) fn extension(&self, name: &str) -> Checked<Option<Self>> {
@@ -92,10 +77,7 @@ impl<'a> Element<'a> {
     pub(super) fn items(&self) -> Checked<impl ExactSizeIterator<Item = Self> + use<'a>> {
         let array = self.value.as_array().ok_or_else(|| self.expected("an array"))?;
         let pointer = self.pointer.clone();
-        Ok(array.iter().enumerate().map(move |(i, value)| Self {
-            value,
-            pointer: format!("{pointer}/{i}"),
-        }))
+        Ok(array.iter().enumerate().map(move |(i, value)| Self { value, pointer: format!("{pointer}/{i}") }))
     }
     /// The elements of the array `key`; none if it is missing.
     pub(super) fn list(&self, key: &str) -> Checked<Vec<Self>> {
@@ -110,16 +92,11 @@ impl<'a> Element<'a> {
             return Ok(None);
         };
         let array = list.value.as_array().ok_or_else(|| list.expected("an array"))?;
-        Ok(array
-            .get(index)
-            .map(|value| list.child(&index.to_string(), value)))
+        Ok(array.get(index).map(|value| list.child(&index.to_string(), value)))
     }
     /// The names of an object's members.
     pub(super) fn keys(&self) -> impl Iterator<Item = &'a str> + use<'a> {
-        self.value
-            .as_object()
-            .into_iter()
-            .flat_map(|o| o.keys().map(String::as_str))
+        self.value.as_object().into_iter().flat_map(|o| o.keys().map(String::as_str))
     }
     /// A number that fits an `f32`.
     pub(super) fn number(&self) -> Checked<f64> {
@@ -150,9 +127,7 @@ impl<'a> Element<'a> {
         let items = self.items()?;
         let found = items.len();
         let numbers = items.map(|i| i.number()).collect::<Checked<Vec<f64>>>()?;
-        numbers
-            .try_into()
-            .map_err(|_| self.fault(format!("expected {N} numbers, found {found}")))
+        numbers.try_into().map_err(|_| self.fault(format!("expected {N} numbers, found {found}")))
     }
 
     /// The number `key`, or `default` if it is missing.
@@ -194,21 +169,10 @@ mod tests {
         let list = Element::root(&value).list("a/b").unwrap_or_default();
         let fault = list.get(1).map(Element::number);
         let text = "expected a number, found a string".to_owned();
-        assert_eq!(
-            fault,
-            Some(Err(Fault {
-                pointer: "/a~1b/1".to_owned(),
-                message: text,
-                hint: None
-            }))
-        );
+        assert_eq!(fault, Some(Err(Fault { pointer: "/a~1b/1".to_owned(), message: text, hint: None })));
         assert_eq!(list.get(2).map(Element::index), Some(Ok(3)));
         assert!(matches!(list.get(3).map(Element::index), Some(Err(_))));
         assert!(matches!(list.get(4).map(Element::number), Some(Err(_))));
-        assert!(
-            Element::root(&value)
-                .required("c")
-                .is_err_and(|f| f.message.contains("\"c\" is missing"))
-        );
+        assert!(Element::root(&value).required("c").is_err_and(|f| f.message.contains("\"c\" is missing")));
     }
 }

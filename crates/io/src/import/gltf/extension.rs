@@ -38,37 +38,16 @@ const LOOKS_ONLY: &[&str] = &[
 
 /// Not read, and data is missing without them; with a way out.
 const REFUSED: &[(&str, &str)] = &[
-    (
-        "EXT_meshopt_compression",
-        "decompress it: `gltf-transform copy in.glb out.glb`",
-    ),
-    (
-        "EXT_texture_avif",
-        "convert the textures: `gltf-transform png in.glb out.glb`",
-    ),
-    (
-        "EXT_texture_webp",
-        "convert the textures: `gltf-transform png in.glb out.glb`",
-    ),
-    (
-        "KHR_draco_mesh_compression",
-        "decompress it: `gltf-transform copy in.glb out.glb`",
-    ),
-    (
-        "KHR_meshopt_compression",
-        "decompress it: `gltf-transform copy in.glb out.glb`",
-    ),
-    (
-        "KHR_texture_basisu",
-        "convert the textures: `gltf-transform ktxdecompress in.glb out.glb`",
-    ),
+    ("EXT_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("EXT_texture_avif", "convert the textures: `gltf-transform png in.glb out.glb`"),
+    ("EXT_texture_webp", "convert the textures: `gltf-transform png in.glb out.glb`"),
+    ("KHR_draco_mesh_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("KHR_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
+    ("KHR_texture_basisu", "convert the textures: `gltf-transform ktxdecompress in.glb out.glb`"),
 ];
 
 fn known() -> impl Iterator<Item = &'static str> {
-    READ.iter()
-        .chain(LOOKS_ONLY)
-        .copied()
-        .chain(REFUSED.iter().map(|(name, _)| *name))
+    READ.iter().chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))
 }
 
 /// Refuses documents that require what we do not read; lists optional extensions that are ignored.
@@ -86,10 +65,7 @@ pub(super) fn check(document: &Document<'_>) -> Checked<()> {
         }
     }
     if let (Some(list), false) = (document.root.get("extensionsUsed")?, ignored.is_empty()) {
-        document.note(
-            &list,
-            format!("optional extensions that durer ignores: {}", ignored.join(", ")),
-        );
+        document.note(&list, format!("optional extensions that durer ignores: {}", ignored.join(", ")));
     }
     Ok(())
 }
@@ -100,15 +76,11 @@ fn require(document: &Document<'_>, element: &Element<'_>) -> Checked<()> {
         return Ok(());
     }
     if LOOKS_ONLY.contains(&name) {
-        document.warn(
-            element,
-            format!("the file requires {name}, which durer draws without so far"),
-        );
+        document.warn(element, format!("the file requires {name}, which durer draws without so far"));
         return Ok(());
     }
-    let mut fault = element.fault(format!(
-        "the file requires the extension {name}, which durer does not read"
-    ));
+    let mut fault =
+        element.fault(format!("the file requires the extension {name}, which durer does not read"));
     fault.hint = Some(match REFUSED.iter().find(|(refused, _)| *refused == name) {
         Some((_, way_out)) => (*way_out).to_owned(),
         None => match nearest_word(name, known()) {

@@ -21,13 +21,8 @@ pub(super) fn materials<'a>(
             "" => format!("material:{index}"),
             name => name.to_owned(),
         };
-        let params = document
-            .keep(principled(document, &element, textures))
-            .unwrap_or_default();
-        NamedNode {
-            name,
-            node: Node::new("principled", params),
-        }
+        let params = document.keep(principled(document, &element, textures)).unwrap_or_default();
+        NamedNode { name, node: Node::new("principled", params) }
     });
     Ok(made.collect())
 }
@@ -55,23 +50,12 @@ fn principled<'a>(
     material: &Element<'a>,
     textures: &mut Textures<'_, 'a>,
 ) -> Checked<Params> {
-    let mut builder = Builder {
-        document,
-        textures,
-        params: Params::new(),
-    };
+    let mut builder = Builder { document, textures, params: Params::new() };
     let unlit = material.extension("KHR_materials_unlit")?.is_some();
     let pbr = material.get("pbrMetallicRoughness")?;
-    builder.base(
-        material,
-        pbr.as_ref(),
-        if unlit { "emission" } else { "basecolor" },
-    )?;
+    builder.base(material, pbr.as_ref(), if unlit { "emission" } else { "basecolor" })?;
     if unlit {
-        document.warn(
-            material,
-            "unlit materials are drawn as black ones that emit their colour",
-        );
+        document.warn(material, "unlit materials are drawn as black ones that emit their colour");
         // An index of 1 reflects nothing.
         builder.params = builder.params.rgb("basecolor", [0.0; 3]).float("eta", 1.0);
         return Ok(builder.params);
@@ -94,8 +78,7 @@ impl<'a> Builder<'_, '_, 'a> {
         let [low, high] = range;
         if value < low || value > high {
             let at = from.get(key)?.unwrap_or_else(|| from.clone());
-            self.document
-                .warn(&at, format!("{key} {value} lies outside {low} to {high}"));
+            self.document.warn(&at, format!("{key} {value} lies outside {low} to {high}"));
         }
         Ok(value.clamp(low, high))
     }
@@ -133,13 +116,13 @@ impl<'a> Builder<'_, '_, 'a> {
 
     fn base(&mut self, material: &Element<'a>, pbr: Option<&Element<'a>>, name: &str) -> Checked<()> {
         let (factor, info) = match pbr {
-            Some(pbr) => (
-                pbr.numbers_or("baseColorFactor", [1.0; 4])?,
-                pbr.get("baseColorTexture")?,
-            ),
+            Some(pbr) => (pbr.numbers_or("baseColorFactor", [1.0; 4])?, pbr.get("baseColorTexture")?),
             None => ([1.0; 4], None),
         };
-        let [r, g, b, a] = factor;
+        if factor.iter().any(|f| !(0.0..=1.0).contains(f)) {
+            self.document.warn(material, "baseColorFactor lies outside 0 to 1");
+        }
+        let [r, g, b, a] = factor.map(|f: f64| f.clamp(0.0, 1.0));
         self.color(name, info.clone(), [r, g, b])?;
         let mode = match material.text_or("alphaMode", "OPAQUE")? {
             "OPAQUE" => return Ok(()),
@@ -170,7 +153,7 @@ impl<'a> Builder<'_, '_, 'a> {
     }
 
     fn emission(&mut self, material: &Element<'a>) -> Checked<()> {
-        let factor: [f64; 3] = material.numbers_or("emissiveFactor", [0.0; 3])?;
+        let factor = material.numbers_or("emissiveFactor", [0.0; 3])?.map(|f: f64| f.max(0.0));
         if factor == [0.0; 3] {
             return Ok(());
         }

@@ -37,12 +37,7 @@ enum Mode {
 impl<'b, 'a> Meshes<'b, 'a> {
     /// None yet.
     pub(super) fn new(document: &'b Document<'a>, buffers: &'b Buffers<'a>) -> Self {
-        Self {
-            document,
-            buffers,
-            made: HashMap::new(),
-            list: Vec::new(),
-        }
+        Self { document, buffers, made: HashMap::new(), list: Vec::new() }
     }
 
     /// The mesh of a primitive; `None` if there is nothing to draw.
@@ -60,21 +55,14 @@ impl<'b, 'a> Meshes<'b, 'a> {
         let attributes = primitive.required("attributes")?;
         let mut key = format!("{}", mode as u8);
         for name in ATTRIBUTES {
-            key += &attributes
-                .get(name)?
-                .map_or(Ok("-".to_owned()), |e| Ok(format!(" {}", e.index()?)))?;
+            key += &attributes.get(name)?.map_or(Ok("-".to_owned()), |e| Ok(format!(" {}", e.index()?)))?;
         }
-        key += &primitive
-            .get("indices")?
-            .map_or(Ok(String::new()), |e| Ok(format!(" {}", e.index()?)))?;
+        key += &primitive.get("indices")?.map_or(Ok(String::new()), |e| Ok(format!(" {}", e.index()?)))?;
         if let Some(made) = self.made.get(&key) {
             return Ok(*made);
         }
         if !primitive.list("targets")?.is_empty() {
-            self.document.warn(
-                primitive,
-                "morph targets are not applied yet: the mesh is drawn at rest",
-            );
+            self.document.warn(primitive, "morph targets are not applied yet: the mesh is drawn at rest");
         }
         let made = self.build(primitive, &attributes, mode)?.map(|mesh| {
             self.list.push(Arc::new(mesh));
@@ -91,32 +79,30 @@ impl<'b, 'a> Meshes<'b, 'a> {
         Accessor::open(self.document, self.buffers, &reference).map(Some)
     }
 
+    /// The vertices in the order in which the primitive visits them.
+    fn corners(&self, primitive: &Element<'a>, positions: &Accessor<'_, 'a>) -> Checked<Vec<u32>> {
+        if let Some(reference) = primitive.get("indices")? {
+            let accessor = Accessor::open(self.document, self.buffers, &reference)?;
+            let corners = accessor.indices(self.document)?;
+            check_corners(&accessor, &corners, positions.count)?;
+            return Ok(corners);
+        }
+        self.document.spend(&positions.element, positions.count, 4)?;
+        let count = u32::try_from(positions.count).map_err(|e| positions.element.fault(e.to_string()))?;
+        Ok((0..count).collect())
+    }
+
     fn build(&self, primitive: &Element<'a>, attributes: &Element<'a>, mode: Mode) -> Checked<Option<Mesh>> {
         let document = self.document;
         let Some(positions) = self.attribute(attributes, "POSITION")? else {
             document.warn(primitive, "a primitive without POSITION draws nothing");
             return Ok(None);
         };
-        let corners = match primitive.get("indices")? {
-            Some(reference) => {
-                let accessor = Accessor::open(document, self.buffers, &reference)?;
-                let corners = accessor.indices(document)?;
-                check_corners(&accessor, &corners, positions.count)?;
-                corners
-            }
-            None => {
-                document.spend(&positions.element, positions.count, 4)?;
-                let count =
-                    u32::try_from(positions.count).map_err(|e| positions.element.fault(e.to_string()))?;
-                (0..count).collect()
-            }
-        };
+        let corners = self.corners(primitive, &positions)?;
         document.spend(primitive, corners.len(), 12)?;
         if matches!(mode, Mode::Triangles) && corners.len() % 3 != 0 {
-            document.warn(
-                primitive,
-                "the number of indices is not a multiple of 3; the last ones are ignored",
-            );
+            document
+                .warn(primitive, "the number of indices is not a multiple of 3; the last ones are ignored");
         }
         let mut indices = triangles(&corners, mode);
         if indices.is_empty() {
@@ -124,12 +110,7 @@ impl<'b, 'a> Meshes<'b, 'a> {
             return Ok(None);
         }
         let used = used_vertices(&corners, positions.count, &mut indices);
-        let read = Columns {
-            meshes: self,
-            attributes,
-            vertices: positions.count,
-            which: used.as_deref(),
-        };
+        let read = Columns { meshes: self, attributes, vertices: positions.count, which: used.as_deref() };
         let mesh = Mesh {
             positions: positions
                 .floats::<3>(document, used.as_deref())?
@@ -137,17 +118,9 @@ impl<'b, 'a> Meshes<'b, 'a> {
                 .map(Point3::from)
                 .collect(),
             indices,
-            normals: read
-                .column::<3>("NORMAL")?
-                .into_iter()
-                .map(Normal3::from)
-                .collect(),
+            normals: read.column::<3>("NORMAL")?.into_iter().map(Normal3::from).collect(),
             // v of glTF grows downwards, ours upwards.
-            uvs: read
-                .column("TEXCOORD_0")?
-                .into_iter()
-                .map(|[u, v]| Point2::new(u, 1.0 - v))
-                .collect(),
+            uvs: read.column("TEXCOORD_0")?.into_iter().map(|[u, v]| Point2::new(u, 1.0 - v)).collect(),
             tangents: read.column("TANGENT")?,
             colors: read.colors()?,
         };
@@ -184,20 +157,17 @@ impl<'b, 'a> Columns<'_, 'b, 'a> {
         if rows.iter().flatten().all(|v| v.is_finite()) {
             return Ok(rows);
         }
-        self.meshes.document.warn(
-            &accessor.element,
-            format!("{name} holds infinite or NaN numbers; ignored"),
-        );
+        self.meshes
+            .document
+            .warn(&accessor.element, format!("{name} holds infinite or NaN numbers; ignored"));
         Ok(Vec::new())
     }
     /// Vertex colours with or without alpha.
     fn colors(&self) -> Checked<Vec<[f32; 4]>> {
         match self.open("COLOR_0")? {
-            Some(a) if a.lanes == 3 => Ok(self
-                .column("COLOR_0")?
-                .into_iter()
-                .map(|[r, g, b]| [r, g, b, 1.0])
-                .collect()),
+            Some(a) if a.lanes == 3 => {
+                Ok(self.column("COLOR_0")?.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect())
+            }
             _ => self.column("COLOR_0"),
         }
     }
@@ -230,10 +200,7 @@ fn triangles(corners: &[u32], mode: Mode) -> Vec<[u32; 3]> {
             let Some((&hub, rim)) = corners.split_first() else {
                 return Vec::new();
             };
-            rim.iter()
-                .zip(rim.iter().skip(1))
-                .map(|(&a, &b)| [a, b, hub])
-                .collect()
+            rim.iter().zip(rim.iter().skip(1)).map(|(&a, &b)| [a, b, hub]).collect()
         }
     }
 }

@@ -37,13 +37,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
     let file = path.display().to_string();
     let limits = imported.assets.limits();
     if let Err(message) = parse(path, &file, limits, imported) {
-        imported.diagnostics.error(
-            Location::Path {
-                file,
-                pointer: String::new(),
-            },
-            message,
-        );
+        imported.diagnostics.error(Location::Path { file, pointer: String::new() }, message);
     }
 }
 
@@ -70,21 +64,13 @@ fn import<'a>(document: &Document<'a>, bin: Option<&'a [u8]>, imported: &mut Imp
     let desc = &mut imported.desc;
     desc.materials = materials(document, &buffers, &mut imported.assets, &mut desc.textures)?;
     let roots = roots(document)?;
-    let mut walk = Walk {
-        document,
-        buffers: &buffers,
-        meshes: Meshes::new(document, &buffers),
-        desc,
-    };
+    let mut walk = Walk { document, buffers: &buffers, meshes: Meshes::new(document, &buffers), desc };
     let walked = walk.run(roots);
     let meshes = std::mem::take(&mut walk.meshes.list);
     desc.meshes = meshes;
     let animations = document.root.list("animations")?;
     if let Some(first) = animations.first() {
-        document.note(
-            first,
-            format!("animations are not played yet: {}", animations.len()),
-        );
+        document.note(first, format!("animations are not played yet: {}", animations.len()));
     }
     walked
 }
@@ -105,9 +91,7 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
     let asset = document.root.required("asset")?;
     let version = asset.required("version")?;
     let text = version.text()?;
-    let numbers = text
-        .split_once('.')
-        .map(|(a, b)| (a.parse::<u32>(), b.parse::<u32>()));
+    let numbers = text.split_once('.').map(|(a, b)| (a.parse::<u32>(), b.parse::<u32>()));
     match numbers {
         Some((Ok(2), Ok(_))) => {}
         Some((Ok(_), Ok(_))) => {
@@ -135,10 +119,7 @@ fn roots<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
     match scene {
         Some(scene) => scene.list("nodes")?.into_iter().map(NodeRef::parse).collect(),
         None => {
-            document.warn(
-                &document.root,
-                "the file holds no scene; all of its nodes are drawn",
-            );
+            document.warn(&document.root, "the file holds no scene; all of its nodes are drawn");
             orphans(document)
         }
     }
@@ -154,10 +135,6 @@ fn orphans<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
             }
         }
     }
-    let free = nodes
-        .into_iter()
-        .enumerate()
-        .zip(orphan)
-        .filter(|(_, orphan)| *orphan);
+    let free = nodes.into_iter().enumerate().zip(orphan).filter(|(_, orphan)| *orphan);
     Ok(free.map(|((index, at), _)| NodeRef { index, at }).collect())
 }

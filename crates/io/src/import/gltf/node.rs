@@ -26,10 +26,7 @@ pub(super) struct NodeRef<'a> {
 impl<'a> NodeRef<'a> {
     /// From an element of a list of children.
     pub(super) fn parse(at: Element<'a>) -> Checked<Self> {
-        Ok(Self {
-            index: at.index()?,
-            at,
-        })
+        Ok(Self { index: at.index()?, at })
     }
 }
 
@@ -57,22 +54,12 @@ impl<'a> Walk<'_, '_, 'a> {
     pub(super) fn run(&mut self, roots: Vec<NodeRef<'a>>) -> Checked<()> {
         let mut seen = vec![false; self.document.root.list("nodes")?.len()];
         let visit = |world, depth| move |node| Visit { node, world, depth };
-        let mut stack: Vec<Visit<'a>> = roots
-            .into_iter()
-            .rev()
-            .map(visit(DAffine3::IDENTITY, 1))
-            .collect();
-        while let Some(Visit {
-            node: NodeRef { index, at },
-            world: above,
-            depth,
-        }) = stack.pop()
-        {
+        let mut stack: Vec<Visit<'a>> = roots.into_iter().rev().map(visit(DAffine3::IDENTITY, 1)).collect();
+        while let Some(Visit { node: NodeRef { index, at }, world: above, depth }) = stack.pop() {
             let Some(node) = self.document.root.list_item("nodes", index)? else {
-                return Err(at.fault(format!(
-                    "refers to /nodes/{index}, but there are only {} nodes",
-                    seen.len()
-                )));
+                return Err(
+                    at.fault(format!("refers to /nodes/{index}, but there are only {} nodes", seen.len()))
+                );
             };
             if depth > self.document.limits.depth {
                 let message = format!("nodes are nested deeper than {}", self.document.limits.depth);
@@ -100,11 +87,8 @@ impl<'a> Walk<'_, '_, 'a> {
                 return Err(node.fault("the transforms above this node multiply to infinity"));
             }
             self.document.keep(self.place(&node, &world));
-            let children = node
-                .list("children")?
-                .into_iter()
-                .map(NodeRef::parse)
-                .collect::<Checked<Vec<_>>>()?;
+            let children =
+                node.list("children")?.into_iter().map(NodeRef::parse).collect::<Checked<Vec<_>>>()?;
             stack.extend(children.into_iter().rev().map(visit(world, depth + 1)));
         }
         Ok(())
@@ -112,30 +96,19 @@ impl<'a> Walk<'_, '_, 'a> {
 
     fn place(&mut self, node: &Element<'a>, world: &DAffine3) -> Checked<()> {
         if let Some(camera) = self.document.member(node, "camera", "cameras")? {
-            let name = if node.name().is_empty() {
-                camera.name()
-            } else {
-                node.name()
-            };
+            let name = if node.name().is_empty() { camera.name() } else { node.name() };
             self.desc.cameras.push(camera::camera(&camera, name, world)?);
         }
         if let Some(reference) = node.extension("KHR_lights_punctual")? {
             let light = self.light(&reference.required("light")?)?;
-            let name = if node.name().is_empty() {
-                light.name()
-            } else {
-                node.name()
-            };
+            let name = if node.name().is_empty() { light.name() } else { node.name() };
             self.desc.lights.push(camera::light(&light, name, world)?);
         }
         let Some(mesh) = self.document.member(node, "mesh", "meshes")? else {
             return Ok(());
         };
         if node.get("skin")?.is_some() {
-            self.document.warn(
-                node,
-                "skins are not applied yet: the mesh is drawn in its bind pose",
-            );
+            self.document.warn(node, "skins are not applied yet: the mesh is drawn in its bind pose");
         }
         match node.extension("EXT_mesh_gpu_instancing")? {
             None => self.shapes(node, &mesh, world),
@@ -161,17 +134,10 @@ impl<'a> Walk<'_, '_, 'a> {
     /// One shape per primitive.
     fn shapes(&mut self, node: &Element<'a>, mesh: &Element<'a>, world: &DAffine3) -> Checked<()> {
         if world.matrix3.determinant() == 0.0 {
-            self.document.warn(
-                node,
-                "a node is scaled to zero in some direction; it is not drawn",
-            );
+            self.document.warn(node, "a node is scaled to zero in some direction; it is not drawn");
             return Ok(());
         }
-        let name = if node.name().is_empty() {
-            mesh.name()
-        } else {
-            node.name()
-        };
+        let name = if node.name().is_empty() { mesh.name() } else { node.name() };
         let primitives: Vec<Element<'a>> = mesh.required("primitives")?.items()?.collect();
         for (index, primitive) in primitives.iter().enumerate() {
             let made = self
@@ -181,24 +147,12 @@ impl<'a> Walk<'_, '_, 'a> {
             let Some(Some((id, material))) = self.document.keep(made) else {
                 continue;
             };
-            self.document.spend(
-                primitive,
-                1,
-                size_of::<ShapeDesc>() + size_of::<(f64, DAffine3)>(),
-            )?;
+            self.document.spend(primitive, 1, size_of::<ShapeDesc>() + size_of::<(f64, DAffine3)>())?;
             let numbered = || {
-                if name.is_empty() {
-                    String::new()
-                } else {
-                    format!("{name}#{}", index + 1)
-                }
+                if name.is_empty() { String::new() } else { format!("{name}#{}", index + 1) }
             };
             self.desc.shapes.push(ShapeDesc {
-                name: if primitives.len() > 1 {
-                    numbered()
-                } else {
-                    name.to_owned()
-                },
+                name: if primitives.len() > 1 { numbered() } else { name.to_owned() },
                 source: ShapeSource::Mesh(id),
                 world_from_object: Motion::still(*world),
                 material,
@@ -224,20 +178,15 @@ impl<'a> Walk<'_, '_, 'a> {
         let [translation, rotation, scale] = accessors;
         self.document.spend(extension, count, size_of::<DAffine3>())?;
         let triple = |a: Option<Accessor<'_, 'a>>, default: f32| {
-            a.map_or(Ok(vec![[default; 3]; count]), |a| {
-                a.floats::<3>(self.document, None)
-            })
+            a.map_or(Ok(vec![[default; 3]; count]), |a| a.floats::<3>(self.document, None))
         };
         let (moves, scales) = (triple(translation, 0.0)?, triple(scale, 1.0)?);
-        let turns = rotation.map_or(Ok(vec![[0.0, 0.0, 0.0, 1.0]; count]), |a| {
-            a.floats::<4>(self.document, None)
-        })?;
+        let turns =
+            rotation.map_or(Ok(vec![[0.0, 0.0, 0.0, 1.0]; count]), |a| a.floats::<4>(self.document, None))?;
         let placed = moves.iter().zip(&turns).zip(&scales).map(|((t, r), s)| {
             trs(t.map(f64::from), r.map(f64::from), s.map(f64::from)).filter(DAffine3::is_finite)
         });
-        placed
-            .collect::<Option<_>>()
-            .ok_or_else(|| attributes.fault("an instance has no valid placement"))
+        placed.collect::<Option<_>>().ok_or_else(|| attributes.fault("an instance has no valid placement"))
     }
 }
 
@@ -255,16 +204,10 @@ fn local(document: &Document<'_>, node: &Element<'_>) -> Checked<DAffine3> {
         let m: [f64; 16] = element.numbers()?;
         let [a, b, c, p, d, e, f, q, g, h, i, r, x, y, z, w] = m;
         if [p, q, r, w] != [0.0, 0.0, 0.0, 1.0] {
-            document.warn(
-                &element,
-                "the last row of this matrix is not 0 0 0 1; it is ignored",
-            );
+            document.warn(&element, "the last row of this matrix is not 0 0 0 1; it is ignored");
         }
         let matrix3 = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
-        return Ok(DAffine3 {
-            matrix3,
-            translation: DVec3::new(x, y, z),
-        });
+        return Ok(DAffine3 { matrix3, translation: DVec3::new(x, y, z) });
     }
     let translation = node.numbers_or("translation", [0.0; 3])?;
     let rotation = node.numbers_or("rotation", [0.0, 0.0, 0.0, 1.0])?;

@@ -41,14 +41,7 @@ impl<'b, 'a> Textures<'b, 'a> {
         assets: &'b mut FileAssets,
     ) -> Self {
         let (filenames, names) = (HashMap::new(), HashMap::new());
-        Self {
-            document,
-            buffers,
-            assets,
-            filenames,
-            names,
-            list: Vec::new(),
-        }
+        Self { document, buffers, assets, filenames, names, list: Vec::new() }
     }
 
     /// The name of the texture that the textureInfo object `info` describes; `None` if its image is of no use.
@@ -64,11 +57,7 @@ impl<'b, 'a> Textures<'b, 'a> {
                 let params = params.string("encoding", "sRGB");
                 (
                     TextureValue::Color,
-                    if factor == [1.0; 3] {
-                        params
-                    } else {
-                        params.rgb("factor", single(factor))
-                    },
+                    if factor == [1.0; 3] { params } else { params.rgb("factor", single(factor)) },
                 )
             }
             Role::Normal => (TextureValue::Color, params.string("encoding", "linear")),
@@ -76,11 +65,7 @@ impl<'b, 'a> Textures<'b, 'a> {
                 let params = params.string("encoding", "linear").string("channel", channel);
                 (
                     TextureValue::Float,
-                    if factor == 1.0 {
-                        params
-                    } else {
-                        params.float("scale", factor as f32)
-                    },
+                    if factor == 1.0 { params } else { params.float("scale", factor as f32) },
                 )
             }
         };
@@ -90,11 +75,7 @@ impl<'b, 'a> Textures<'b, 'a> {
         let count = self.list.len();
         let name = self.names.entry(key).or_insert_with(|| {
             let name = format!("texture:{count}");
-            self.list.push(TextureDesc {
-                name: name.clone(),
-                value,
-                node,
-            });
+            self.list.push(TextureDesc { name: name.clone(), value, node });
             name
         });
         Ok(Some(name.clone()))
@@ -103,18 +84,10 @@ impl<'b, 'a> Textures<'b, 'a> {
     /// The file name of a texture's image; embedded ones are registered under a name of their own.
     fn image(&mut self, texture: &Element<'a>) -> Checked<Option<String>> {
         let Some(source) = texture.get("source")? else {
-            let other: Vec<&str> = texture
-                .get("extensions")?
-                .iter()
-                .flat_map(Element::keys)
-                .collect();
-            let why = if other.is_empty() {
-                "has no image".into()
-            } else {
-                format!("needs {}", other.join(", "))
-            };
-            self.document
-                .warn(texture, format!("a texture {why}; its factor alone is used"));
+            let other: Vec<&str> = texture.get("extensions")?.iter().flat_map(Element::keys).collect();
+            let why =
+                if other.is_empty() { "has no image".into() } else { format!("needs {}", other.join(", ")) };
+            self.document.warn(texture, format!("a texture {why}; its factor alone is used"));
             return Ok(None);
         };
         let index = source.index()?;
@@ -152,11 +125,7 @@ impl<'b, 'a> Textures<'b, 'a> {
             other => Err(sampler.fault_at(key, format!("expected 10497, 33071 or 33648, found {other}"))),
         };
         let (u, v) = (wrap("wrapS")?, wrap("wrapT")?);
-        let mut params = if u == "repeat" && v == "repeat" {
-            params
-        } else {
-            params.string("wrap", u)
-        };
+        let mut params = if u == "repeat" && v == "repeat" { params } else { params.string("wrap", u) };
         if u != v {
             params = params.string("wrapv", v);
         }
@@ -182,10 +151,8 @@ impl<'b, 'a> Textures<'b, 'a> {
             }
         }
         if set != 0 {
-            self.document.warn(
-                info,
-                format!("texture coordinates TEXCOORD_{set} are not read; TEXCOORD_0 is used"),
-            );
+            self.document
+                .warn(info, format!("texture coordinates TEXCOORD_{set} are not read; TEXCOORD_0 is used"));
         }
         Ok(params)
     }
@@ -206,11 +173,7 @@ fn uv_matrix([tx, ty]: [f64; 2], rotation: f64, [sx, sy]: [f64; 2]) -> [f64; 6] 
 /// textures need.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let snap = |v: f32| {
-        if (v - v.round()).abs() < 2e-7 {
-            v.round()
-        } else {
-            v
-        }
+        if (v - v.round()).abs() < 2e-7 { v.round() } else { v }
     };
     let angle = angle as f32;
     (snap(float::sin(angle)).into(), snap(float::cos(angle)).into())
@@ -242,11 +205,7 @@ mod tests {
 
     #[test]
     fn offsets_move_as_in_gltf() {
-        assert!(near(
-            sampled([0.25, 0.125], uv_matrix([0.5, 0.25], 0.0, [1.0; 2])),
-            [0.75, 0.375],
-            1e-12
-        ));
+        assert!(near(sampled([0.25, 0.125], uv_matrix([0.5, 0.25], 0.0, [1.0; 2])), [0.75, 0.375], 1e-12));
     }
 
     /// The quads of Khronos' TextureTransformTest show an arrow whose tip lies at (0.7778, 0.7778) of its image; green

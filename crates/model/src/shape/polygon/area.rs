@@ -15,18 +15,12 @@ pub(super) fn filled_area(edges: Vec<Edge>, rule: FillRule) -> f64 {
     }
     levels.sort_unstable_by(f64::total_cmp);
     levels.dedup();
-    levels
-        .windows(2)
-        .map(|w| (w[1] - w[0]) * filled_width(&edges, rule, 0.5 * (w[0] + w[1])))
-        .sum()
+    levels.windows(2).map(|w| (w[1] - w[0]) * filled_width(&edges, rule, 0.5 * (w[0] + w[1]))).sum()
 }
 
 /// Height at which two edges cross; `None` if they do not or are parallel.
 fn crossing_height(a: &Edge, b: &Edge) -> Option<f64> {
-    let (da, db) = (
-        [a[1][0] - a[0][0], a[1][1] - a[0][1]],
-        [b[1][0] - b[0][0], b[1][1] - b[0][1]],
-    );
+    let (da, db) = ([a[1][0] - a[0][0], a[1][1] - a[0][1]], [b[1][0] - b[0][0], b[1][1] - b[0][1]]);
     let between = [b[0][0] - a[0][0], b[0][1] - a[0][1]];
     let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
     let whole = cross(da, db);

@@ -36,10 +36,7 @@ impl FillRule {
 
 /// Number of edges that the half line from `p` towards +x crosses. Edges of closed loops, in any order.
 pub fn crossing_number(p: [f64; 2], edges: impl IntoIterator<Item = [[f64; 2]; 2]>) -> u32 {
-    edges
-        .into_iter()
-        .map(|edge| crossing(p, edge).unsigned_abs())
-        .sum()
+    edges.into_iter().map(|edge| crossing(p, edge).unsigned_abs()).sum()
 }
 
 /// How often the outline winds around `p`: counter-clockwise minus clockwise turns, counted where edges cross the half

@@ -1,9 +1,9 @@
 //! Planar polygon: concave, self-intersecting or with holes.
 //!
 //! The plane's normal is Newell's sum over the first loop, `n = sum (p_i - p_0) x (p_{i+1} - p_0)` (Sutherland, Sproull,
-//! Schumacker 1974); `t = -(D + n.o) / (n.d)` as for [`super::plane`]. Inside or outside is a question in 2D (lecture,
+//! Schumacker 1974); `t = -(D + n.o) / (n.d)` as for a plane. Inside or outside is a question in 2D (lecture,
 //! "Point in Polygon"): the vertices are sheared along the ray and the ray's dominant axis is dropped, so the ray
-//! becomes the point (0, 0), see [`inside`]. Projecting along the ray rather than along the normal lets any two polygons
+//! becomes the point (0, 0), see [`crossing_number`]. Projecting along the ray rather than along the normal lets any two polygons
 //! that share an edge decide by the same numbers, also where they meet at an angle: a ray passes one of them exactly.
 mod area;
 mod inside;
@@ -48,10 +48,7 @@ impl Polygon {
             return Err(format!("vertex {i} is not finite"));
         }
         if let Some(i) = loops.iter().position(|l| l.len() < 3) {
-            return Err(format!(
-                "loop {i} has {} vertices, expected 3 or more",
-                loops[i].len()
-            ));
+            return Err(format!("loop {i} has {} vertices, expected 3 or more", loops[i].len()));
         }
         let largest = points().fold(0.0f32, |m, p| m.max((*p - Point3::ZERO).abs().max_component()));
         let carrier = newell(loops.first().map_or(&[], Vec::as_slice), largest.into())?;
@@ -75,24 +72,12 @@ impl Polygon {
             let on_plane = p.to_f64() - carrier.n * carrier.height(p.to_f64());
             [p, Point3::from_f64(on_plane)]
         }));
-        let loops = loops
-            .iter()
-            .map(|l| l.iter().map(|p| p.to_f64()).collect())
-            .collect();
-        Ok(Self {
-            carrier,
-            loops,
-            fill_rule,
-            bounds,
-            corner,
-            size,
-        })
+        let loops = loops.iter().map(|l| l.iter().map(|p| p.to_f64()).collect()).collect();
+        Ok(Self { carrier, loops, fill_rule, bounds, corner, size })
     }
 
     fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
-        self.loops
-            .iter()
-            .flat_map(|l| (0..l.len()).map(move |i| [l[i], l[(i + 1) % l.len()]]))
+        self.loops.iter().flat_map(|l| (0..l.len()).map(move |i| [l[i], l[(i + 1) % l.len()]]))
     }
 
     /// Whether the line of `ray` passes through the polygon as seen along it.
@@ -116,18 +101,13 @@ fn newell(outline: &[Point3], largest: f64) -> Result<Carrier, String> {
     let Some(first) = points.first().copied() else {
         return Err("there are no vertices".to_owned());
     };
-    let twice_area: DVec3 = points
-        .windows(2)
-        .map(|w| (w[0] - first).cross(w[1] - first))
-        .sum();
+    let twice_area: DVec3 = points.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum();
     let extent = points.iter().map(|p| (*p - first).length()).fold(0.0, f64::max);
     // Rounding vertices to f32 alone can make this much area.
     let noise = 4.0 * f64::from(f32::EPSILON) * extent * largest;
     if twice_area.length() <= noise {
-        return Err(
-            "the first loop encloses no area: its vertices lie on one line, or its windings cancel"
-                .to_owned(),
-        );
+        return Err("the first loop encloses no area: its vertices lie on one line, or its windings cancel"
+            .to_owned());
     }
     let mean = points.iter().map(|p| *p - first).sum::<DVec3>() / points.len() as f64;
     Ok(Carrier::new(first + mean, twice_area))
@@ -148,10 +128,7 @@ impl Shape for Polygon {
         self.carrier.surface(p, Point2::new(unit(0), unit(1)), self.size)
     }
     fn area(&self) -> f32 {
-        let flat = self
-            .edges()
-            .map(|e| e.map(|p| self.carrier.coordinates(p)))
-            .collect();
+        let flat = self.edges().map(|e| e.map(|p| self.carrier.coordinates(p))).collect();
         area::filled_area(flat, self.fill_rule) as f32
     }
 }
@@ -200,10 +177,7 @@ impl Kind for Polygon {
         if total != points.len() {
             args.error(
                 "counts",
-                format!(
-                    "\"counts\" adds up to {total}, but \"P\" has {} vertices",
-                    points.len()
-                ),
+                format!("\"counts\" adds up to {total}, but \"P\" has {} vertices", points.len()),
             );
             return None;
         }
@@ -216,11 +190,8 @@ impl Kind for Polygon {
                 these.to_vec()
             })
             .collect();
-        let fill_rule = if args.text("fillrule") == "nonzero" {
-            FillRule::NonZero
-        } else {
-            FillRule::EvenOdd
-        };
+        let fill_rule =
+            if args.text("fillrule") == "nonzero" { FillRule::NonZero } else { FillRule::EvenOdd };
         match Self::new(&loops, fill_rule) {
             Ok(polygon) => Some(Geometry::Shape(Box::new(polygon))),
             Err(message) => {

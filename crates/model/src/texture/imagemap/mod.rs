@@ -106,22 +106,14 @@ impl ImageMap {
             }
         };
         let is_color = value == TextureValue::Color;
-        let channel = match if is_color {
-            "luminance"
-        } else {
-            args.text("channel")
-        } {
+        let channel = match if is_color { "luminance" } else { args.text("channel") } {
             "r" => Channel::Rgba(0),
             "g" => Channel::Rgba(1),
             "b" => Channel::Rgba(2),
             "a" => Channel::Rgba(3),
             _ => Channel::Luminance,
         };
-        let factor = if is_color {
-            args.color("factor")
-        } else {
-            Color::WHITE
-        };
+        let factor = if is_color { args.color("factor") } else { Color::WHITE };
         let (scale, invert) = (args.float("scale"), args.bool("invert"));
         let Some(image) = image else {
             let texels = Texels::new(Arc::new(placeholder()), false);
@@ -145,10 +137,7 @@ impl ImageMap {
             ImageData::F32(v) => v.len(),
         };
         if stored == 0 || image.channels > 4 || stored != values as u64 {
-            args.error(
-                "filename",
-                format!("the image is not sound: {values} values for {stored}"),
-            );
+            args.error("filename", format!("the image is not sound: {values} values for {stored}"));
             return None;
         }
         let encoded = match args.text("encoding") {
@@ -171,18 +160,9 @@ impl ImageMap {
 /// Shown for an image that is missing: magenta and black squares, eight each way.
 fn placeholder() -> Image {
     let pixel = |i: usize| {
-        if (i % 8 + i / 8).is_multiple_of(2) {
-            [255, 0, 255]
-        } else {
-            [0, 0, 0]
-        }
+        if (i % 8 + i / 8).is_multiple_of(2) { [255, 0, 255] } else { [0, 0, 0] }
     };
-    Image {
-        width: 8,
-        height: 8,
-        channels: 3,
-        data: ImageData::U8((0..64).flat_map(pixel).collect()),
-    }
+    Image { width: 8, height: 8, channels: 3, data: ImageData::U8((0..64).flat_map(pixel).collect()) }
 }
 
 impl Texture for ImageMap {
@@ -230,12 +210,8 @@ const FILTER: ParamSpec = ParamSpec::new(
     "Between texel centres: interpolate, or take the nearest (point).",
 );
 const SCALE: ParamSpec = ParamSpec::float("scale", 1.0, "Factor of all values.");
-const INVERT: ParamSpec = ParamSpec::new(
-    "invert",
-    ParamType::Bool,
-    ParamDefault::Bool(false),
-    "Take 1 - x of every scaled value.",
-);
+const INVERT: ParamSpec =
+    ParamSpec::new("invert", ParamType::Bool, ParamDefault::Bool(false), "Take 1 - x of every scaled value.");
 
 /// The word `imagemap` for colours.
 #[derive(Clone, Copy, Debug)]
@@ -254,11 +230,7 @@ impl Kind for ColorImageMap {
             ENCODING,
             FILTER,
             SCALE,
-            ParamSpec::color(
-                "factor",
-                [1.0; 3],
-                "Linear factor of the colours, after inversion.",
-            ),
+            ParamSpec::color("factor", [1.0; 3], "Linear factor of the colours, after inversion."),
             INVERT,
             U_SCALE,
             V_SCALE,

@@ -1,19 +1,15 @@
 //! The sRGB transfer function (IEC 61966-2-1): `c / 12.92` up to 0.04045, then `((c + 0.055) / 1.055)^2.4`.
 
 /// The linear value of an encoded one; negative values become 0.
-pub(super) fn decode(encoded: f32) -> f32 {
-    let c = f64::from(encoded.max(0.0));
-    let linear = if c <= 0.04045 {
-        c / 12.92
-    } else {
-        power_2_4((c + 0.055) / 1.055)
-    };
+pub(super) fn decode(encoded: f64) -> f32 {
+    let c = encoded.max(0.0);
+    let linear = if c <= 0.04045 { c / 12.92 } else { power_2_4((c + 0.055) / 1.055) };
     linear as f32
 }
 
 /// The linear values of all bytes.
 pub(super) fn table() -> [f32; 256] {
-    std::array::from_fn(|byte| decode(byte as f32 / 255.0))
+    std::array::from_fn(|byte| decode(byte as f64 / 255.0))
 }
 
 /// `x^2.4 = x^2 (x^2)^(1/5)`, the root by Newton's method: only basic arithmetic, so the same bits everywhere.
@@ -35,11 +31,7 @@ mod tests {
     fn every_byte_decodes_to_the_nearest_float() {
         for (byte, value) in table().into_iter().enumerate() {
             let c = byte as f64 / 255.0;
-            let exact = if c <= 0.04045 {
-                c / 12.92
-            } else {
-                ((c + 0.055) / 1.055).powf(2.4)
-            };
+            let exact = if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
             assert_eq!(value, exact as f32, "byte {byte}");
         }
     }

@@ -18,16 +18,8 @@ pub(super) struct Texels {
 impl Texels {
     /// `encoded`: whether colours (never alpha) are sRGB-encoded.
     pub(super) fn new(image: Arc<Image>, encoded: bool) -> Self {
-        let bytes = if encoded {
-            srgb::table()
-        } else {
-            std::array::from_fn(|byte| byte as f32 / 255.0)
-        };
-        Self {
-            image,
-            bytes,
-            encoded,
-        }
+        let bytes = if encoded { srgb::table() } else { std::array::from_fn(|byte| byte as f32 / 255.0) };
+        Self { image, bytes, encoded }
     }
     /// Texels per row.
     pub(super) fn width(&self) -> u32 {
@@ -44,17 +36,17 @@ impl Texels {
         let color = |channel: usize| self.color(first + channel);
         match channels {
             1 => [color(0), color(0), color(0), 1.0],
-            2 => [color(0), color(0), color(0), self.stored(first + 1)],
+            2 => [color(0), color(0), color(0), self.stored(first + 1) as f32],
             3 => [color(0), color(1), color(2), 1.0],
-            _ => [color(0), color(1), color(2), self.stored(first + 3)],
+            _ => [color(0), color(1), color(2), self.stored(first + 3) as f32],
         }
     }
     /// A value as stored; integers are mapped to `[0, 1]`.
-    fn stored(&self, i: usize) -> f32 {
+    fn stored(&self, i: usize) -> f64 {
         match &self.image.data {
-            ImageData::U8(v) => f32::from(v[i]) / 255.0,
-            ImageData::U16(v) => f32::from(v[i]) / 65_535.0,
-            ImageData::F32(v) => v[i],
+            ImageData::U8(v) => f64::from(v[i]) / 255.0,
+            ImageData::U16(v) => f64::from(v[i]) / 65_535.0,
+            ImageData::F32(v) => v[i].into(),
         }
     }
     /// A linear value.
@@ -62,7 +54,7 @@ impl Texels {
         match &self.image.data {
             ImageData::U8(v) => self.bytes[usize::from(v[i])],
             _ if self.encoded => srgb::decode(self.stored(i)),
-            _ => self.stored(i),
+            _ => self.stored(i) as f32,
         }
     }
 }

@@ -50,9 +50,7 @@ mod tests {
     #[test]
     fn every_mode_matches_a_row_written_by_hand() {
         let row = |wrap: Wrap| -> String {
-            (-7..7)
-                .map(|i| wrap.index(i, 3).map_or('.', |i| ['a', 'b', 'c'][i as usize]))
-                .collect()
+            (-7..7).map(|i| wrap.index(i, 3).map_or('.', |i| ['a', 'b', 'c'][i as usize])).collect()
         };
         assert_eq!(row(Wrap::Repeat), "cabcabcabcabca");
         assert_eq!(row(Wrap::Clamp), "aaaaaaaabccccc");

@@ -104,7 +104,8 @@ fn tone_maps_act_between_exposure_and_encoding() {
 
 #[test]
 fn pixels_keep_their_places() {
-    let out = develop(2, 2, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]], 0.0, ToneMap::None);
+    let out =
+        develop(2, 2, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]], 0.0, ToneMap::None);
     assert_eq!((out.width, out.height), (2, 2));
     assert_eq!(out.rgb8, [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255]);
 }
@@ -132,7 +133,8 @@ fn depth_survives_flat_empty_and_broken_pictures() {
     assert_eq!(flat.picture.rgb8, [255, 255, 255, 0, 0, 0]);
     let empty = develop_data(Show::Depth, 2, 1, &[None; 2]);
     assert_eq!((empty.depth, empty.picture.rgb8), (None, vec![0; 6]));
-    let broken = develop_data(Show::Depth, 3, 1, &[Some([f32::NAN; 3]), Some([f32::INFINITY; 3]), Some([1.0; 3])]);
+    let broken =
+        develop_data(Show::Depth, 3, 1, &[Some([f32::NAN; 3]), Some([f32::INFINITY; 3]), Some([1.0; 3])]);
     assert_eq!(broken.depth, Some(DepthRange { near: 1.0, far: 1.0 }));
     assert_eq!(broken.picture.rgb8, [0, 0, 0, 0, 0, 0, 255, 255, 255]);
 }

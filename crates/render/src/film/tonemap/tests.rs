@@ -30,7 +30,20 @@ fn words_name_every_map() {
 
 #[test]
 fn any_input_gives_displayable_light() {
-    let odd: [f32; 12] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, -1.0, -0.0, 0.0, 1e-45, 1e-6, 0.5, 1e9];
+    let odd: [f32; 12] = [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        f32::MIN,
+        -1.0,
+        -0.0,
+        0.0,
+        1e-45,
+        1e-6,
+        0.5,
+        1e9,
+    ];
     for map in ToneMap::ALL {
         for i in 0..odd.len().pow(3) {
             let c = [odd[i % 12], odd[i / 12 % 12], odd[i / 144]];
@@ -131,7 +144,11 @@ fn aces_agrees_with_the_published_matrices() {
         let v = times(&IN, c.map(f64::from));
         let fit = v.map(|v| (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.432951) + 0.238081));
         let expected = times(&OUT, fit).map(|v| v.clamp(0.0, 1.0) as f32);
-        assert!(close(ToneMap::Aces.apply(c), expected, 2e-5), "{c:?}: {:?} {expected:?}", ToneMap::Aces.apply(c));
+        assert!(
+            close(ToneMap::Aces.apply(c), expected, 2e-5),
+            "{c:?}: {:?} {expected:?}",
+            ToneMap::Aces.apply(c)
+        );
     }
 }
 
@@ -200,6 +217,22 @@ fn agx_outset_undoes_the_inset() {
         let back = agx(c, |v| v);
         let largest = c[0].max(c[1]).max(c[2]);
         assert!(close(back, c, 1e-6 * largest), "{c:?} {back:?}");
+    }
+}
+
+/// Worked out apart from this code: the published matrix, the published table, the sRGB curve, the inverse matrix.
+#[test]
+fn agx_has_the_values_of_the_published_matrix_and_table() {
+    let known = [
+        ([0.5, 0.1, 0.02], [0.437_685, 0.139_267, 0.034_373]),
+        ([1.0, 0.0, 0.0], [0.637_084, 0.027_636, 0.027_687]),
+        ([0.05, 0.04, 3.0], [0.245_507, 0.238_511, 0.872_032]),
+        ([0.002, 0.005, 0.003], [0.002_159, 0.004_582, 0.002_963]),
+        ([9.0, 7.0, 0.1], [0.986_426, 0.959_122, 0.534_909]),
+    ];
+    for (c, expected) in known {
+        let found = ToneMap::Agx.apply(c);
+        assert!(close(found, expected, 3e-4), "{c:?}: {found:?} {expected:?}");
     }
 }
 

@@ -1,0 +1,132 @@
+//! From a film to picture files: developed for the eye (PNG), or as it is, with its story (OpenEXR).
+use std::time::Duration;
+
+use durer::{
+    Output, Prepared, Show, View,
+    film::{DepthRange, Developed, Pixel, ToneMap, develop, develop_data},
+    image::{ExrPicture, ExrValue, NamedChannel, PictureFormat, write_exr, write_png},
+};
+
+use crate::output::Destination;
+
+/// How light becomes 8-bit colours.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// Stops of brightening.
+    pub(crate) exposure: f32,
+    pub(crate) tonemap: ToneMap,
+}
+
+/// A rendered picture on its way into files.
+pub(crate) struct Picture<'a> {
+    pub(crate) scene: &'a str,
+    pub(crate) prepared: &'a Prepared,
+    pub(crate) pixels: Vec<Pixel>,
+    pub(crate) render: Duration,
+    /// It is not complete.
+    pub(crate) interrupted: bool,
+}
+
+impl Picture<'_> {
+    /// Writes it.
+    pub(crate) fn write(&self, to: &Destination, look: Look) -> anyhow::Result<()> {
+        match to.format {
+            PictureFormat::Png => {
+                let Developed { width, height, rgb8 } = self.develop(look);
+                write_png(&to.path, width, height, &rgb8)?;
+            }
+            PictureFormat::Exr => write_exr(&to.path, &self.linear())?,
+        }
+        Ok(())
+    }
+
+    /// Nearest and farthest depth of a depth picture: what its PNG scales to.
+    pub(crate) fn depth_range(&self) -> Option<DepthRange> {
+        match self.output() {
+            Output::Data(Show::Depth) => {
+                develop_data(Show::Depth, self.view().width, self.view().height, &self.data()).depth
+            }
+            _ => None,
+        }
+    }
+
+    fn output(&self) -> Output {
+        self.prepared.integrator.output()
+    }
+
+    fn view(&self) -> &View {
+        &self.prepared.scene.view
+    }
+
+    fn data(&self) -> Vec<Option<[f32; 3]>> {
+        self.pixels.iter().map(|p| (p.weight != 0.0).then(|| p.mean())).collect()
+    }
+
+    fn develop(&self, look: Look) -> Developed {
+        let (width, height) = (self.view().width, self.view().height);
+        match self.output() {
+            Output::Data(show) => develop_data(show, width, height, &self.data()).picture,
+            Output::Radiance => {
+                let rgb: Vec<[f32; 3]> = self.pixels.iter().map(Pixel::mean).collect();
+                develop(width, height, &rgb, look.exposure, look.tonemap)
+            }
+        }
+    }
+
+    /// The means of the film, whatever they mean; zero where nothing was hit.
+    fn linear(&self) -> ExrPicture {
+        let channel = |(index, name): (usize, &&str)| NamedChannel {
+            name: (*name).to_owned(),
+            values: self.pixels.iter().map(|p| p.mean()[index]).collect(),
+        };
+        ExrPicture {
+            width: self.view().width,
+            height: self.view().height,
+            channels: channel_names(self.output()).iter().enumerate().map(channel).collect(),
+            attributes: self.story(),
+        }
+    }
+
+    fn story(&self) -> Vec<(String, ExrValue)> {
+        let text = |t: &str| ExrValue::Text(t.to_owned());
+        let samples = self.prepared.settings.samples;
+        let mut story = vec![
+            ("durer.version", text(env!("CARGO_PKG_VERSION"))),
+            ("durer.scene", text(self.scene)),
+            ("durer.integrator", text(&self.prepared.integrator_name)),
+            ("durer.spp", ExrValue::Integer(i32::try_from(samples).unwrap_or(i32::MAX))),
+            // Text, as OpenEXR has no whole numbers of 64 bits.
+            ("durer.seed", text(&self.prepared.settings.seed.to_string())),
+            ("durer.seconds", ExrValue::Number(self.render.as_secs_f64())),
+            ("durer.world_from_camera", ExrValue::Matrix(world_from_camera(self.view()))),
+        ];
+        if self.interrupted {
+            story.push(("durer.interrupted", ExrValue::Integer(1)));
+        }
+        story.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+    }
+}
+
+/// What the numbers of a pixel are called in a file.
+fn channel_names(output: Output) -> &'static [&'static str] {
+    match output {
+        Output::Radiance | Output::Data(Show::Shading | Show::Albedo) => &["R", "G", "B"],
+        Output::Data(Show::Depth) => &["depth.Z", "depth.length"],
+        Output::Data(Show::Normal) => &["normal.X", "normal.Y", "normal.Z"],
+        Output::Data(Show::Uv) => &["uv.U", "uv.V"],
+        Output::Data(Show::Id) => &["id"],
+    }
+}
+
+/// Rows of the matrix that takes column vectors from the camera to the world. The camera looks along +z, y up.
+fn world_from_camera(view: &View) -> [f32; 16] {
+    let [x, y, z] = view.render_from_camera.rows();
+    let to_world = view.world_from_render.to_array();
+    let row = |row: &[f32; 4], shift: f64| [row[0], row[1], row[2], (f64::from(row[3]) + shift) as f32];
+    let [x, y, z] = [row(x, to_world[0]), row(y, to_world[1]), row(z, to_world[2])];
+    let mut matrix = [0.0; 16];
+    for (to, from) in matrix.iter_mut().zip([x, y, z, [0.0, 0.0, 0.0, 1.0]].concat()) {
+        *to = from;
+    }
+    matrix
+}

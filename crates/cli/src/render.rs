@@ -1,0 +1,182 @@
+//! `durer render`: a scene to picture files.
+use std::{path::PathBuf, time::Instant};
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use durer::{Gather, Output, Prepared, Rendered, film::ToneMap};
+
+use crate::{
+    exit::{Exit, WrongUsage, emit, emit_json, tell},
+    interrupt::Interrupt,
+    load::load,
+    number::significant,
+    options::{SampleOptions, TalkOptions, finite},
+    output::{Destination, destinations},
+    picture::{Look, Picture},
+    progress::Bar,
+    report,
+    stats::{Facts, Seconds, Stats, StatsForm},
+};
+
+const EXAMPLES: &str = "\
+Examples:
+  durer render                                   the scene whitted, to whitted.png
+  durer render room.glb -o room.png -o room.exr  one render, two files
+  durer render room.pbrt --scale 0.25 --spp 4    a quick look
+  durer render room.glb --integrator cast --show depth -o depth.exr
+  durer render room.glb --crop 100,50,200,120 --spp 256
+  durer render --stats=json | jq .rays
+
+Files: .png is developed (exposure, tone map, sRGB) to 8 bits; .exr holds linear
+floats as they are. Its channels: R, G, B; depth.Z (metres along the camera's
+axis) and depth.length (along the ray); normal.X, .Y, .Z (world space); uv.U, .V;
+id (1 is the first object). All are 0 where nothing was hit.
+
+stdout holds the paths of the files, a line each, or with --stats=json an object:
+version 1; durer, scene, integrator, width, height, spp, seed, threads, outputs,
+interrupted, samples, bad_samples, first_bad, seconds, rays, stops, tests,
+max_depth, build. Within a version keys may be added, none renamed.
+
+Ctrl-C writes the picture so far and exits with 130; a second one exits at once.";
+
+/// Renders a scene.
+#[derive(clap::Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    sample: SampleOptions,
+    /// The picture file; may be given several times [default: SCENE-STEM.png].
+    #[arg(long, short, value_name = "FILE", help_heading = "Picture")]
+    output: Vec<PathBuf>,
+    /// Brightens 8-bit pictures by so many stops.
+    #[arg(long, value_name = "EV", value_parser = finite, allow_negative_numbers = true, default_value_t = 0.0)]
+    #[arg(help_heading = "Picture")]
+    exposure: f32,
+    /// How light becomes 8-bit colours [default: none for cast and whitted, else agx].
+    #[arg(long, value_name = "NAME", value_parser = tonemap(), help_heading = "Picture")]
+    tonemap: Option<ToneMap>,
+    /// Counts rays, stops and tests, which takes time; as text on stderr, or as JSON on stdout.
+    #[arg(long, value_name = "FORM", value_enum, num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "text", help_heading = "Running")]
+    stats: Option<StatsForm>,
+    /// Worker threads [default: all cores]. The picture does not depend on their number.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(help_heading = "Running")]
+    threads: Option<u32>,
+    #[command(flatten)]
+    talk: TalkOptions,
+}
+
+fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
+    PossibleValuesParser::new(ToneMap::WORDS).try_map(|word| ToneMap::from_word(&word).ok_or("unknown"))
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
+    let scene = &args.sample.scene.scene;
+    let outputs = destinations(&args.output, scene)?;
+    let interrupt = Interrupt::listen()?;
+    let wishes = durer::Options { threads: args.threads.map(|n| n as usize), ..args.sample.wishes() };
+    let loaded = load(scene, &wishes);
+    report::print(&loaded.imported, &args.talk);
+    let Some(prepared) = &loaded.prepared else {
+        return Ok(Exit::Failed);
+    };
+    check_crop(prepared)?;
+    args.warn_about_looks(prepared);
+
+    let start = Instant::now();
+    let rendered = args.render(prepared, &interrupt);
+    let render = start.elapsed();
+    args.warn_about_bad_samples(&rendered);
+
+    let start = Instant::now();
+    let pixels = rendered.film.pixels();
+    let picture = Picture { scene, prepared, pixels, render, interrupted: rendered.cancelled };
+    let written = args.write(&picture, &outputs);
+    let seconds = Seconds { load: loaded.load, build: loaded.build, render, write: start.elapsed() };
+    let stats = Stats::new(&Facts { scene, prepared, rendered: &rendered, seconds, outputs: &written });
+    args.tell_summary(&picture, &stats);
+    if args.stats == Some(StatsForm::Json) {
+        emit_json(&stats)?;
+    } else {
+        written.iter().try_for_each(|path| emit(&format!("{path}\n")))?;
+    }
+    Ok(match (rendered.cancelled, written.len() == outputs.len()) {
+        (true, _) => Exit::Interrupted,
+        (false, true) => Exit::Done,
+        (false, false) => Exit::Failed,
+    })
+}
+
+/// A crop that misses the picture is a slip: it would give a black one.
+fn check_crop(prepared: &Prepared) -> Result<(), WrongUsage> {
+    let view = &prepared.scene.view;
+    if prepared.settings.window(view.width, view.height).area() > 0 {
+        return Ok(());
+    }
+    let size = format!("{} x {}", view.width, view.height);
+    Err(WrongUsage(format!("--crop lies outside the picture of {size} pixels")))
+}
+
+impl Args {
+    fn render(&self, prepared: &Prepared, interrupt: &Interrupt) -> Rendered {
+        let view = &prepared.scene.view;
+        let pixels = prepared.settings.window(view.width, view.height).area();
+        let bar = Bar::new(pixels * u64::from(prepared.settings.samples), self.talk.quiet);
+        let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
+        let rendered = prepared.job().render(gather, &bar, interrupt.rendering());
+        bar.finish();
+        rendered
+    }
+
+    /// The paths of the files that could be written; complains about the others.
+    fn write(&self, picture: &Picture<'_>, outputs: &[Destination]) -> Vec<String> {
+        let tonemap = self.tonemap.unwrap_or(default_tonemap(&picture.prepared.integrator_name));
+        let look = Look { exposure: self.exposure, tonemap };
+        let written = outputs.iter().filter(|output| {
+            let done = picture.write(output, look);
+            if let Err(error) = &done {
+                tell(&format!("error: {error:#}"));
+            }
+            done.is_ok()
+        });
+        written.map(|output| output.path.display().to_string()).collect()
+    }
+
+    fn warn_about_looks(&self, prepared: &Prepared) {
+        let asked = self.tonemap.is_some() || self.exposure != 0.0;
+        if asked && !self.talk.quiet && prepared.integrator.output() != Output::Radiance {
+            tell("warning: the picture shows no light: exposure and tone map change nothing");
+        }
+    }
+
+    fn warn_about_bad_samples(&self, rendered: &Rendered) {
+        let Some(first) = rendered.first_bad.filter(|_| !self.talk.quiet) else {
+            return;
+        };
+        let replay = self.sample.replay(first.pixel, first.sample);
+        let counted = match rendered.bad_samples {
+            1 => "1 sample was infinite or NaN and was left out; it".to_owned(),
+            n => format!("{n} samples were infinite or NaN and were left out; the first"),
+        };
+        tell(&format!("warning: {counted} is replayed by\n  durer trace {replay}"));
+    }
+
+    fn tell_summary(&self, picture: &Picture<'_>, stats: &Stats<'_>) {
+        if let (Some(range), false) = (picture.depth_range(), self.talk.quiet) {
+            let [near, far] = [range.near, range.far].map(|d| significant(d, 6));
+            tell(&format!("depth: {near} m (nearest) to {far} m (farthest)"));
+        }
+        if self.stats == Some(StatsForm::Text) {
+            tell(stats.text().trim_end());
+        } else if !self.talk.quiet {
+            tell(&stats.summary());
+        }
+    }
+}
+
+fn default_tonemap(integrator: &str) -> ToneMap {
+    match integrator {
+        "cast" | "whitted" => ToneMap::None,
+        _ => ToneMap::Agx,
+    }
+}
