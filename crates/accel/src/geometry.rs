@@ -108,6 +108,11 @@ impl Geometry {
         Ok(Self { tree, items: Items::Boxes(leaves), finite, bounds })
     }
 
+    /// Whether rays need what triangle tests need.
+    pub(crate) fn has_triangles(&self) -> bool {
+        matches!(self.items, Items::Triangles { .. })
+    }
+
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
         let items = match &self.items {

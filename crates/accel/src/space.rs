@@ -8,13 +8,15 @@ use crate::{slab::Slab, triangle::Shear};
 pub(crate) struct Space {
     pub(crate) ray: Ray,
     pub(crate) slab: Slab,
-    pub(crate) shear: Shear,
+    /// `None` where there are no triangles to test.
+    pub(crate) shear: Option<Shear>,
 }
 
 impl Space {
-    /// For things inside `region`. `None` if the ray can hit nothing.
-    pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
+    /// For things inside `region`, triangles among them or not. `None` if the ray can hit nothing.
+    pub(crate) fn new(ray: &Ray, region: &Bounds3, triangles: bool) -> Option<Self> {
         let slab = Slab::new(ray, region)?;
-        Some(Self { ray: *ray, slab, shear: Shear::new(ray)? })
+        let shear = if triangles { Some(Shear::new(ray)?) } else { None };
+        Some(Self { ray: *ray, slab, shear })
     }
 }

@@ -55,7 +55,7 @@ impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
         let space = match instance.pose.object_ray(&self.world.ray) {
             None => self.world,
             Some(ray) => {
-                transformed = Space::new(&ray, &geometry.finite)?;
+                transformed = Space::new(&ray, &geometry.finite, geometry.has_triangles())?;
                 &transformed
             }
         };
@@ -131,7 +131,8 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
     #[inline]
     fn triangle(&mut self, leaf: &LeafTriangle, t_max: f32) -> Option<Hit> {
         self.query.probe.primitive(self.query.id, self.instance, leaf.prim);
-        let found = triangle::intersect(&self.space.shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
+        let shear = self.space.shear.as_ref()?;
+        let found = triangle::intersect(shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
         let [_, u, v] = found.weights;
         self.hit(leaf.prim, PrimitiveHit { t: found.t, u, v }, &leaf.bounds(), t_max)
     }

@@ -14,10 +14,12 @@ pub(crate) struct Interrupt {
 
 impl Interrupt {
     /// Starts to listen. Before [`Interrupt::rendering`] there is no picture to keep: Ctrl-C ends the program.
+    ///
+    /// Shells let background jobs of scripts ignore the signal; someone who sends it all the same means it.
     pub(crate) fn listen() -> anyhow::Result<Self> {
         let this = Self { cancel: Arc::default(), rendering: Arc::default() };
         let (cancel, rendering) = (Arc::clone(&this.cancel), Arc::clone(&this.rendering));
-        ctrlc::try_set_handler(move || {
+        ctrlc::set_handler(move || {
             let second = cancel.swap(true, Ordering::Relaxed);
             if second || !rendering.load(Ordering::Relaxed) {
                 std::process::exit(Exit::Interrupted as i32);

@@ -67,7 +67,7 @@ pub(crate) struct TransportOptions {
     /// What `--integrator cast` shows of the nearest hit [default: shading].
     #[arg(long, value_name = "WHAT", value_parser = show())]
     show: Option<Show>,
-    /// Bounces traced at most; 0 stops after the eye rays [default: the scene's, else 10].
+    /// Bounces traced at most; 0 leaves eye and shadow rays [default: the scene's, else 10].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1000))]
     max_depth: Option<u32>,
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].

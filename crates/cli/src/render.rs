@@ -123,7 +123,11 @@ impl Args {
         let pixels = prepared.settings.window(view.width, view.height).area();
         let bar = Bar::new(pixels * u64::from(prepared.settings.samples), self.talk.quiet);
         let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
-        let rendered = prepared.job().render(gather, &bar, interrupt.rendering());
+        let cancel = interrupt.rendering();
+        if self.talk.verbose {
+            tell(&format!("rendering {pixels} pixels on {} threads", prepared.settings.threads));
+        }
+        let rendered = prepared.job().render(gather, &bar, cancel);
         bar.finish();
         rendered
     }

@@ -55,9 +55,10 @@ impl Carrier {
     /// are parallel to the plane as far as can be told, and degenerate ones.
     pub(super) fn meet(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (o, d) = (ray.o.to_f64(), ray.d.to_f64());
+        let sum = |v: DVec3| v.abs().element_sum();
         let slope = self.n.dot(d);
-        let slope_error = 8.0 * f64::EPSILON * d.length();
-        let height_error = 8.0 * f64::EPSILON * (o.length() + self.origin.length());
+        let slope_error = 8.0 * f64::EPSILON * sum(d);
+        let height_error = 8.0 * f64::EPSILON * (sum(o) + sum(self.origin));
         let t = -self.height(o) / slope;
         let error = (height_error + t.abs() * slope_error) / slope.abs() + f64::EPSILON * t.abs();
         (slope.abs() > slope_error && t.is_finite()).then_some((t, error))

@@ -2,8 +2,8 @@
 //!
 //! Implicit form `H(P) = P.P - r^2 = 0` (lecture, "Sphere Representation"; Physically Based Rendering, 4th edition, section
 //! 6.2). The ray's foot point `l = o - (o.d / d.d) d` is where it comes nearest to the centre; the roots lie half a chord
-//! before and behind it, `t = -o.d / d.d -+ sqrt((r - |l|)(r + |l|) / d.d)`, which does not cancel like `b^2 - 4ac`
-//! (section 6.8.3). All in f64 from the f32 ray, with a bound on the error of both roots.
+//! before and behind it, `t = -o.d / d.d -+ sqrt((r^2 - |l|^2) / d.d)`, which does not cancel like `b^2 - 4ac` (section
+//! 6.8.3). All in f64 from the f32 ray, with a bound on the error of both roots.
 use std::f32::consts::{PI, TAU};
 
 use durer_core::{
@@ -30,12 +30,21 @@ pub struct Sphere {
     whole: bool,
 }
 
-/// Both places where a line meets the sphere.
+/// Both places where a line meets the sphere: half a chord before and behind its middle.
 struct Roots {
-    near: f64,
-    far: f64,
-    /// Bound on the absolute error of both.
-    error: f64,
+    middle: f64,
+    half: f64,
+    /// 1 / d.d
+    inverse: f64,
+}
+
+impl Roots {
+    fn near(&self) -> f64 {
+        self.middle - self.half
+    }
+    fn far(&self) -> f64 {
+        self.middle + self.half
+    }
 }
 
 impl Sphere {
@@ -56,22 +65,25 @@ impl Sphere {
 
     fn roots(&self, ray: &Ray) -> Option<Roots> {
         let (o, d, r) = (ray.o.to_f64(), ray.d.to_f64(), f64::from(self.radius));
-        let a = d.length_squared();
-        let middle = -o.dot(d) / a;
-        let foot = (o + d * middle).length();
-        let room = (r - foot) * (r + foot);
-        // False for the NaN of a zero or infinite direction as well.
-        if !(room >= 0.0 && a > 0.0 && a.is_finite()) {
+        let inverse = 1.0 / d.length_squared();
+        let middle = -o.dot(d) * inverse;
+        let room = r * r - (o + d * middle).length_squared();
+        // False for the NaN of an infinite direction, and for a zero one.
+        if !(room >= 0.0 && inverse.is_finite()) {
             return None;
         }
-        let half = (room / a).sqrt();
+        Some(Roots { middle, half: (room * inverse).sqrt(), inverse })
+    }
+
+    /// Bound on the absolute error of both roots.
+    fn error(&self, ray: &Ray, roots: &Roots) -> f64 {
+        let o = ray.o.to_f64().abs().element_sum();
         // The foot point is off by some roundings of |o|; what that does to a square root is
         // |sqrt(x + e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
-        let reach = o.length() + r;
-        let room_error = 16.0 * f64::EPSILON * reach * reach;
-        let half_error = (room_error / room.sqrt()).min(room_error.sqrt()) / a.sqrt();
-        let error = half_error + 8.0 * f64::EPSILON * (o.length() / a.sqrt() + middle.abs() + half);
-        Some(Roots { near: middle - half, far: middle + half, error })
+        let reach = o + f64::from(self.radius);
+        let room = 16.0 * f64::EPSILON * reach * reach * roots.inverse;
+        let half = (room / roots.half).min(room.sqrt());
+        half + 8.0 * f64::EPSILON * (o * roots.inverse.sqrt() + roots.middle.abs() + roots.half)
     }
 
     /// The point at `t`, put back on the sphere.
@@ -106,8 +118,12 @@ impl Shape for Sphere {
 
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
         let roots = self.roots(ray)?;
-        [roots.near, roots.far].into_iter().find_map(|t| {
-            let rounded = accept(ray, t, roots.error)?;
+        if roots.far() < ray.t_min.into() || roots.near() > ray.t_max.into() {
+            return None;
+        }
+        let error = self.error(ray, &roots);
+        [roots.near(), roots.far()].into_iter().find_map(|t| {
+            let rounded = accept(ray, t, error)?;
             (self.whole || self.keeps(self.point(ray, t))).then_some(ShapeHit { t: rounded, u: 0.0, v: 0.0 })
         })
     }
@@ -116,7 +132,7 @@ impl Shape for Sphere {
         // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
         let wanted = f64::from(hit.t);
         let t = self.roots(ray).map_or(wanted, |roots| {
-            if (roots.near - wanted).abs() <= (roots.far - wanted).abs() { roots.near } else { roots.far }
+            if wanted <= roots.middle { roots.near() } else { roots.far() }
         });
         let exact = self.point(ray, t);
         let p = Point3::from_f64(exact);

@@ -1,0 +1,126 @@
+//! Wrong scenes, wrong files, wrong words: what is said, and with which exit status.
+use crate::run::Place;
+
+#[test]
+fn every_error_of_a_scene_has_its_place_and_a_caret() {
+    let text = "WorldBegin\nMaterial \"difuse\"\n  Shape \"sphere\" \"float raduis\" 1\nShape \"spere\"\n";
+    let place = Place::new().with("bad.pbrt", text);
+    let ran = place.run("render bad.pbrt");
+    assert_eq!((ran.code, ran.stdout.as_str()), (1, ""));
+    for word in [
+        "bad.pbrt:2:10",
+        "bad.pbrt:3:18",
+        "bad.pbrt:4:7",
+        "did you mean \"diffuse\"?",
+        "\"radius\"",
+        "\"sphere\"",
+    ] {
+        assert!(ran.stderr.contains(word), "{word} in\n{}", ran.stderr);
+    }
+    let lines: Vec<&str> = ran.stderr.lines().collect();
+    let text = lines.iter().position(|l| l.contains("Material \"difuse\"")).expect("the offending line");
+    let column = lines[text].find("\"difuse\"");
+    assert_eq!(lines[text + 1].find('^'), column, "the caret is below\n{}", ran.stderr);
+    assert_eq!(lines.last(), Some(&"3 errors"));
+    assert!(!ran.stderr.contains('\x1b'), "no colour in a pipe");
+    assert!(place.holds_only(&["bad.pbrt"]));
+}
+
+#[test]
+fn texts_that_end_early_or_hold_other_letters_do_not_break_the_report() {
+    for text in [
+        "",
+        "WorldBegin\nShape \"sph\u{e4}re\"",
+        "WorldBegin Shape",
+        "\u{feff}WorldBegin\n\tShape \"",
+        "\0\u{1}",
+    ] {
+        let place = Place::new().with("x.pbrt", text);
+        let ran = place.run("render x.pbrt --scale 0.01 --spp 1");
+        assert!(ran.code == 1 || text.is_empty(), "{text:?}: {}", ran.stderr);
+        assert!(!ran.stderr.contains("panicked"), "{text:?}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn missing_files_are_named_once() {
+    let place = Place::new();
+    for name in ["nothing.pbrt", "nothing.glb", "nothing.gltf"] {
+        let ran = place.run(&format!("info {name}"));
+        assert_eq!(ran.code, 1);
+        assert_eq!(ran.stderr.matches(name).count(), 1, "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn near_words_are_offered() {
+    let place = Place::new();
+    for (words, code, near) in [
+        ("render --integrator wited", 2, "'whitted'"),
+        ("render --integrator cast --show norml", 2, "'normal'"),
+        ("render --tonemap axg", 2, "agx"),
+        ("render --acel none", 2, "'--accel'"),
+        ("rendr", 2, "'render'"),
+        ("render whited", 1, "\"whitted\""),
+        ("render scene.blend", 1, ".pbrt"),
+    ] {
+        let ran = place.run(words);
+        assert_eq!(ran.code, code, "{words}");
+        assert!(ran.stderr.contains(near), "{words}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn nonsense_numbers_are_wrong_usage() {
+    let place = Place::new();
+    for words in [
+        "--width 0",
+        "--spp 0",
+        "--scale -1",
+        "--scale nan",
+        "--crop 5,5,5,9",
+        "--crop 1,2,3",
+        "--crop 9000,0,9001,1",
+        "--shutter 2,1",
+        "--min-contribution 2",
+        "--threads 0",
+        "--exposure inf",
+        "--max-depth 1001",
+    ] {
+        let ran = place.run(&format!("render {words}"));
+        assert_eq!(ran.code, 2, "{words}: {}", ran.stderr);
+    }
+    assert!(place.holds_only(&[]));
+}
+
+#[test]
+fn a_bad_destination_is_found_before_the_work() {
+    // The scene does not exist either: that would be the complaint if the scene were read first.
+    let place = Place::new();
+    for (file, code, why) in
+        [("x.tiff", 2, "tiff"), ("x", 2, "suffix"), ("nowhere/x.png", 1, "nowhere"), (".", 2, "suffix")]
+    {
+        let ran = place.run(&format!("render nothing.glb -o ok.png -o {file}"));
+        assert_eq!(ran.code, code, "{file}: {}", ran.stderr);
+        assert!(ran.stderr.contains(why) && !ran.stderr.contains("nothing.glb"), "{file}: {}", ran.stderr);
+    }
+    std::fs::create_dir(place.path("folder.png")).expect("a folder");
+    let ran = place.run("render -o folder.png");
+    assert_eq!(ran.code, 1);
+    assert!(ran.stderr.contains("is a folder"), "{}", ran.stderr);
+}
+
+#[test]
+fn notes_are_for_those_who_ask() {
+    let place = Place::new().with("ball.pbrt", crate::pictures::SPHERE);
+    let plain = place.done("render ball.pbrt --spp 1");
+    let verbose = place.done("render ball.pbrt --spp 1 -v");
+    assert!(!plain.stderr.contains("no light") && verbose.stderr.contains("no light"), "{}", verbose.stderr);
+    let warned = place.done("render ball.pbrt --spp 1 --show depth");
+    assert!(
+        warned.stderr.contains("warning:") && warned.stderr.contains("--integrator cast"),
+        "{}",
+        warned.stderr
+    );
+    assert_eq!(place.done("render ball.pbrt --spp 1 --show depth --quiet").stderr, "");
+}

@@ -1,0 +1,9 @@
+//! The built binary, run in folders of its own.
+
+mod complaints;
+mod interrupt;
+mod pictures;
+mod run;
+mod statistics;
+mod traces;
+mod words;

@@ -1,0 +1,149 @@
+//! `durer trace` and the pixels it replays.
+use serde_json::Value;
+
+use crate::run::Place;
+
+const PIXELS: [[u32; 2]; 6] = [[0, 0], [63, 35], [37, 15], [22, 20], [40, 28], [30, 8]];
+
+#[test]
+fn the_last_line_has_the_bits_of_the_picture() {
+    let place = Place::new();
+    place.done("render --width 64 --height 36 --spp 1 -o x.exr");
+    let exr = place.exr("x.exr");
+    for [x, y] in PIXELS {
+        let ran = place.done(&format!("trace --width 64 --height 36 --spp 1 --pixel {x},{y}"));
+        assert_eq!(ran.pixel().map(f32::to_bits), exr.bits(["R", "G", "B"], [x, y]), "{x},{y}");
+    }
+}
+
+#[test]
+fn data_pictures_are_replayed_too() {
+    let place = Place::new();
+    let options = "--width 64 --height 36 --integrator cast --show normal";
+    place.done(&format!("render {options} -o n.exr"));
+    let exr = place.exr("n.exr");
+    for [x, y] in PIXELS {
+        let ran = place.done(&format!("trace {options} --pixel {x},{y}"));
+        let bits = exr.bits(["normal.X", "normal.Y", "normal.Z"], [x, y]);
+        assert_eq!(ran.pixel().map(f32::to_bits), bits, "{x},{y}");
+    }
+}
+
+#[test]
+fn the_samples_of_a_pixel_sum_to_the_picture() {
+    let place = Place::new();
+    place.done("render --width 64 --height 36 --spp 4 -o x.exr");
+    let mut sum = [0.0f32; 3];
+    for sample in 0..4 {
+        let ran =
+            place.done(&format!("trace --width 64 --height 36 --spp 4 --pixel 40,20 --sample {sample}"));
+        ran.pixel().iter().zip(&mut sum).for_each(|(v, sum)| *sum += v);
+    }
+    assert_eq!(sum.map(|s| (s / 4.0).to_bits()), place.exr("x.exr").bits(["R", "G", "B"], [40, 20]));
+}
+
+#[test]
+fn the_tree_names_what_it_meets() {
+    let ran = Place::new().done("trace --width 64 --height 36 --spp 1 --pixel 37,20");
+    for word in [
+        "eye hits glass ball, outer (outside) at",
+        "\n  re",
+        "shadow to sun",
+        "not traced",
+        "would have carried",
+    ] {
+        assert!(ran.stdout.contains(word), "{word} in\n{}", ran.stdout);
+    }
+    assert_eq!(ran.stderr, "");
+}
+
+#[test]
+fn json_has_every_key_and_folds_to_the_pixel() {
+    let place = Place::new();
+    let words = "trace --width 64 --height 36 --spp 1 --pixel 37,20";
+    let tree = place.done(&format!("{words} --json")).json();
+    assert_eq!(
+        (&tree["version"], &tree["pixel"], &tree["sample"]),
+        (&1.into(), &vec![37, 20].into(), &0.into())
+    );
+    let nodes = tree["nodes"].as_array().expect("nodes");
+    assert!(nodes.len() > 5);
+    let keys = "id parent kind depth origin direction t point object primitive normal side uv weight throughput local \
+                contribution result stop lost light blocker tests";
+    for (id, node) in nodes.iter().enumerate() {
+        assert_eq!(node["id"], id);
+        keys.split_whitespace().for_each(|key| assert!(node.get(key).is_some(), "{key} of node {id}"));
+        check_geometry(node);
+    }
+    assert_eq!(folded(nodes), numbers(&tree["rgb"]).map(|v| v as f32));
+}
+
+#[test]
+fn a_tree_goes_to_a_file_too() {
+    let place = Place::new();
+    let words = "trace --width 64 --height 36 --spp 1 --pixel 37,20";
+    let ran = place.done(&format!("{words} -o tree.json"));
+    let file = std::fs::read_to_string(place.path("tree.json")).expect("a tree");
+    assert_eq!(file, place.done(&format!("{words} --json")).stdout);
+    assert!(ran.stdout.lines().last().expect("a line").starts_with("pixel "));
+}
+
+#[test]
+fn pixels_and_samples_outside_are_wrong_usage() {
+    let place = Place::new();
+    for (words, why) in [
+        ("--pixel 64,3", "outside the picture of 64 x 36"),
+        ("--pixel 3,36", "outside the picture"),
+        ("--pixel 3,3 --sample 2", "no sample 2"),
+        ("--pixel 3", "expected X,Y"),
+        ("--pixel 3,-1", "expected X,Y"),
+        ("--pixel 3,3 -o tree.svg", ".json"),
+        ("", "--pixel"),
+    ] {
+        let ran = place.run(&format!("trace --width 64 --height 36 --spp 2 {words}"));
+        assert_eq!(ran.code, 2, "{words}");
+        assert!(ran.stderr.contains(why), "{words}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_bad_sample_comes_with_the_line_that_replays_it() {
+    let light = r#"LightSource "point" "rgb I" [3e38 3e38 3e38] "float scale" 1e10 "point3 from" [0 3 -3]"#;
+    let place = Place::new().with("bad.pbrt", &format!("{}{light}", crate::pictures::SPHERE));
+    let ran = place.done("render bad.pbrt --spp 2 --seed 7");
+    let line = ran.stderr.lines().find_map(|l| l.trim().strip_prefix("durer ")).expect("a line to replay");
+    assert!(ran.stderr.contains("infinite or NaN") && line.contains("--seed 7"), "{}", ran.stderr);
+    assert!(place.done(line).pixel().iter().any(|v| !v.is_finite()));
+    assert!(place.done("render bad.pbrt --spp 2 --stats=json").json()["bad_samples"].as_u64() > Some(0));
+}
+
+fn numbers(value: &Value) -> [f64; 3] {
+    std::array::from_fn(|i| value[i].as_f64().expect("a number"))
+}
+
+/// Origin and length lead to the point; directions and normals are of unit length.
+fn check_geometry(node: &Value) {
+    let direction = numbers(&node["direction"]);
+    let length = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    assert!((length(direction) - 1.0).abs() < 1e-5, "{node}");
+    if node["object"].is_string() {
+        assert!((length(numbers(&node["normal"])) - 1.0).abs() < 1e-5);
+        let (origin, point) = (numbers(&node["origin"]), numbers(&node["point"]));
+        let t = node["t"].as_f64().expect("a length");
+        let off: [f64; 3] = std::array::from_fn(|i| origin[i] + t * direction[i] - point[i]);
+        assert!(length(off) < 1e-4, "{node}");
+    }
+}
+
+/// Each node is its own light plus weight times result of its children, in order.
+fn folded(nodes: &[Value]) -> [f32; 3] {
+    let of = |node: &Value, key: &str| numbers(&node[key]).map(|v| v as f32);
+    let mut sums: Vec<[f32; 3]> = nodes.iter().map(|n| of(n, "local")).collect();
+    for parent in (0..nodes.len()).rev() {
+        for child in nodes.iter().filter(|n| n["parent"] == parent) {
+            let (weight, result) = (of(child, "weight"), sums[child["id"].as_u64().expect("an id") as usize]);
+            (0..3).for_each(|i| sums[parent][i] += weight[i] * result[i]);
+        }
+    }
+    sums[0]
+}
