@@ -5,7 +5,7 @@ use durer_render::{
     Scene,
     compile::{self, CompileOptions},
     drive::{Job, Settings},
-    integrator::{Integrator, Output, Show},
+    integrator::{INTEGRATORS, Integrator, Output, Show},
 };
 use durer_scene::{Data, Diagnostics, Location, Node, Param, SceneDesc, ValueType};
 
@@ -67,7 +67,13 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         shutter,
         crop: options.crop,
     };
-    Some(Prepared { scene, integrator, integrator_name: integrator_node.kind, settings })
+    Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
+}
+
+/// The word of the integrator that answers to `kind`, or stands in for it.
+fn registered_word(kind: &str) -> String {
+    let entry = INTEGRATORS.iter().find(|e| e.answers_to(kind));
+    entry.map_or_else(|| compile::default_integrator().kind, |e| e.schema.name.to_owned())
 }
 
 /// The integrator the options ask for, else the scene's, else the default; with the options' limits put in.

@@ -120,6 +120,17 @@ fn a_picture_tells_how_it_was_made() {
     assert!(header.contains("18446744073709551615") && !header.contains("durer.interrupted"));
 }
 
+#[test]
+fn an_integrator_that_stands_in_is_named_as_what_it_is() {
+    let place = Place::new().with("path.pbrt", &format!("Integrator \"path\"\n{SPHERE}"));
+    let ran = place.done("render path.pbrt --spp 1");
+    assert!(
+        ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, whitted;"),
+        "{}",
+        ran.stderr
+    );
+}
+
 /// A ball of radius 1 before a camera 4 m away, without a light.
 pub(crate) const SPHERE: &str = r#"
 Film "rgb" "integer xresolution" 32 "integer yresolution" 24
