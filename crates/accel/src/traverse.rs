@@ -1,7 +1,7 @@
 //! What happens in the leaves of both levels: instances enter their geometry, primitives are tested.
 use std::ops::Range;
 
-use durer_core::math::{Bounds3, Ray};
+use durer_core::math::Ray;
 
 use crate::{
     Accel, Engine, Hit, PrimitiveHit, TraversalProbe, UserGeometry,
@@ -134,37 +134,39 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
         let shear = self.space.shear.as_ref()?;
         let found = triangle::intersect(shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
         let [_, u, v] = found.weights;
-        self.hit(leaf.prim, PrimitiveHit { t: found.t, u, v }, &leaf.bounds(), t_max)
+        let window = self.space.slab.window_of(&leaf.bounds());
+        self.hit(leaf.prim, PrimitiveHit { t: found.t, u, v }, window, t_max)
     }
 
     fn user(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Hit> {
-        let ray = self.user_ray(leaf, t_max)?;
+        let window = self.space.slab.window_of(&leaf.bounds);
+        let ray = self.user_ray(leaf.prim, window, t_max)?;
         let found = self.query.user.intersect(self.instance, leaf.prim, &ray)?;
-        self.hit(leaf.prim, found, &leaf.bounds, t_max)
+        self.hit(leaf.prim, found, window, t_max)
     }
 
     fn user_blocks(&mut self, leaf: &LeafBox) -> bool {
         let Ray { t_min, t_max, .. } = self.space.ray;
-        let Some(ray) = self.user_ray(leaf, t_max) else {
+        let window = self.space.slab.window_of(&leaf.bounds);
+        let Some(ray) = self.user_ray(leaf.prim, window, t_max) else {
             return false;
         };
         let occluded = self.query.user.occludes(self.instance, leaf.prim, &ray);
-        let window = self.space.slab.window_of(&leaf.bounds);
         occluded && window.admits(t_min, t_max) && self.near <= t_max
     }
 
     /// What the callback gets; `None` if the box already says no.
-    fn user_ray(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Ray> {
-        let window = self.space.slab.window_of(&leaf.bounds);
+    fn user_ray(&mut self, prim: u32, window: Window, t_max: f32) -> Option<Ray> {
         if !self.exhaustive && !window.admits(self.space.ray.t_min, t_max) {
             return None;
         }
-        self.query.probe.primitive(self.query.id, self.instance, leaf.prim);
+        self.query.probe.primitive(self.query.id, self.instance, prim);
         Some(Ray { t_max, ..self.space.ray })
     }
 
-    fn hit(&self, prim: u32, found: PrimitiveHit, bounds: &Bounds3, t_max: f32) -> Option<Hit> {
-        let t = self.admit(found.t, self.space.slab.window_of(bounds), t_max)?;
+    #[inline]
+    fn hit(&self, prim: u32, found: PrimitiveHit, window: Window, t_max: f32) -> Option<Hit> {
+        let t = self.admit(found.t, window, t_max)?;
         Some(Hit { t, instance: self.instance, prim, u: found.u, v: found.v })
     }
 

@@ -43,7 +43,8 @@ impl Surface {
             let n = m.normal(n).normalize();
             if reverse { -n } else { n }
         };
-        let (n_g, n_s) = (turn(self.n_g), turn(self.n_s));
+        let n_g = turn(self.n_g);
+        let n_s = if self.n_s == self.n_g { n_g } else { turn(self.n_s) };
         Self { p, p_error, n_g, n_s, dpdu: m.vector(self.dpdu), dpdv: m.vector(self.dpdv), ..self }
     }
     /// The same place with its normals turned.
@@ -51,9 +52,9 @@ impl Surface {
     pub fn reversed(self) -> Self {
         Self { n_g: -self.n_g, n_s: -self.n_s, ..self }
     }
-    /// The frame that lobes live in: z is the shading normal, x lies nearest to `dpdu`.
+    /// The frame that lobes live in: z is the shading normal.
     pub fn frame(&self) -> Frame {
-        Frame::from_z_and_tangent(self.n_s, self.dpdu)
+        Frame::from_z(self.n_s)
     }
     /// True if direction `w`, pointing away from the surface, lies on its outside.
     pub fn is_outside(&self, w: Vector3) -> bool {

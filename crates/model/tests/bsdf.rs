@@ -113,7 +113,7 @@ fn hemispherical_fresnel_reflectance_matches_the_table() {
 
 #[test]
 fn a_fresnel_interface_divides_all_light_between_two_branches() {
-    let bsdf = Bsdf::default().with(Lobe::Interface(Interface { eta: 1.5, split: Split::Fresnel }));
+    let bsdf = Bsdf::default().with(Lobe::Interface(Interface::clear(1.5)));
     let wo = at_degrees(45.0);
     let [r, t] = sharp(&bsdf, wo)[..] else { panic!("two branches") };
     assert_eq!((r.kind, t.kind), (BranchKind::Reflection, BranchKind::Transmission));
@@ -127,7 +127,7 @@ fn a_fresnel_interface_divides_all_light_between_two_branches() {
 #[test]
 fn total_reflection_keeps_all_light_with_fresnel_and_loses_the_transmitted_part_with_constants() {
     let wo = -at_degrees(50.0);
-    let fresnel = Bsdf::default().with(Lobe::Interface(Interface { eta: 1.5, split: Split::Fresnel }));
+    let fresnel = Bsdf::default().with(Lobe::Interface(Interface::clear(1.5)));
     let [r] = sharp(&fresnel, wo)[..] else { panic!("one branch") };
     assert_eq!((r.kind, r.weight), (BranchKind::Reflection, Spectrum::ONE));
     assert_eq!(fresnel.branches(wo).total_internal_reflection, Some(Spectrum::BLACK));
@@ -143,7 +143,7 @@ fn total_reflection_keeps_all_light_with_fresnel_and_loses_the_transmitted_part_
 
 #[test]
 fn an_interface_without_contrast_is_invisible() {
-    let bsdf = Bsdf::default().with(Lobe::Interface(Interface { eta: 1.0, split: Split::Fresnel }));
+    let bsdf = Bsdf::default().with(Lobe::Interface(Interface::clear(1.0)));
     for wo in [at_degrees(0.0), at_degrees(70.0), -at_degrees(30.0), at_degrees(90.0)] {
         let [t] = sharp(&bsdf, wo)[..] else { panic!("one branch at {wo:?}") };
         assert_eq!((t.kind, t.weight), (BranchKind::Transmission, Spectrum::ONE));
@@ -154,7 +154,7 @@ fn an_interface_without_contrast_is_invisible() {
 /// I10: a plate of reflectance R that is seen from one side with sky 1 behind it passes `(1 - R) / (1 + R)`.
 #[test]
 fn glass_plates_pass_what_the_series_says() {
-    let bsdf = Bsdf::default().with(Lobe::Interface(Interface { eta: 1.5, split: Split::Fresnel }));
+    let bsdf = Bsdf::default().with(Lobe::Interface(Interface::clear(1.5)));
     let up = Vector3::new(0.0, 0.0, 1.0);
     let weights = |wo: Vector3| {
         let [r, t] = sharp(&bsdf, wo)[..] else { panic!("two branches") };

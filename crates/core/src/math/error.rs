@@ -17,12 +17,14 @@ pub fn offset_ray_origin(p: Point3, p_error: Vector3, n: Normal3, w: Vector3) ->
     let offset = Vector3::from(n) * (distance * side);
     let step = |p: f32, o: f32| {
         let q = p + o;
-        if o > 0.0 {
-            q.next_up()
-        } else if o < 0.0 {
-            q.next_down()
-        } else {
+        if o == 0.0 {
             q
+        } else if q == 0.0 {
+            f32::from_bits(1).copysign(o)
+        } else {
+            // PERF: the neighbouring float without the branches of next_up and next_down (bench render).
+            let away = (o > 0.0) == (q > 0.0);
+            f32::from_bits(q.to_bits().wrapping_add(if away { 1 } else { u32::MAX }))
         }
     };
     Point3::new(step(p.x, offset.x), step(p.y, offset.y), step(p.z, offset.z))
@@ -39,7 +41,7 @@ mod tests {
         let n = Normal3::new(0.6, 0.0, 0.8);
         for w in [Vector3::from(n), -Vector3::from(n)] {
             let moved = offset_ray_origin(p, e, n, w) - p;
-            assert!(moved.dot(n).abs() >= n.abs().dot(e) * 0.999, "{moved:?}");
+            assert!(moved.dot(n).abs() >= n.abs().dot(e), "{moved:?}");
             assert!(moved.dot(w) > 0.0);
         }
     }

@@ -26,7 +26,8 @@ pub struct Branch {
 /// The sharp directions of a [`Bsdf`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Branches {
-    list: [Option<Branch>; Bsdf::MOST_LOBES * 2],
+    list: [Option<Branch>; Self::MOST],
+    count: usize,
     /// Set if a lobe would have transmitted but reflects totally, with the weight that the transmitted ray would have
     /// had and that is lost: Whitted's constant coefficient. Black where Fresnel's equations hand all of it to the
     /// reflected ray.
@@ -34,18 +35,22 @@ pub struct Branches {
 }
 
 impl Branches {
+    /// One per lobe, and a second one for the one lobe of a material that is an interface.
+    const MOST: usize = Bsdf::MOST_LOBES + 1;
+
     /// The branches, reflections before transmissions of the same lobe.
     pub fn iter(&self) -> impl Iterator<Item = &Branch> {
-        self.list.iter().flatten()
+        self.list[..self.count].iter().flatten()
     }
     /// Adds a branch unless it carries nothing.
     pub(super) fn add(&mut self, kind: BranchKind, wi: Vector3, weight: Spectrum) {
         if weight.is_black() {
             return;
         }
-        // A lobe adds two at most, so there is always room.
-        if let Some(place) = self.list.iter_mut().find(|b| b.is_none()) {
+        debug_assert!(self.count < Self::MOST, "a material returns more than one interface");
+        if let Some(place) = self.list.get_mut(self.count) {
             *place = Some(Branch { kind, wi, weight });
+            self.count += 1;
         }
     }
 }

@@ -12,8 +12,13 @@ use super::{BranchKind, Branches, fresnel_dielectric, lobe::mirrored, refract};
 /// How light is divided between reflection and transmission.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Split {
-    /// By Fresnel's equations; on total internal reflection everything is reflected.
-    Fresnel,
+    /// By Fresnel's equations, times these factors; on total internal reflection everything is reflected.
+    Fresnel {
+        /// Factor on what is reflected.
+        reflection: Spectrum,
+        /// Factor on what is transmitted.
+        transmission: Spectrum,
+    },
     /// By Whitted's constants; on total internal reflection nothing is transmitted and the reflection stays as it is.
     Constant {
         /// `k_s`.
@@ -33,13 +38,17 @@ pub struct Interface {
 }
 
 impl Interface {
+    /// A clear interface that loses nothing.
+    pub const fn clear(eta: f32) -> Self {
+        Self { eta, split: Split::Fresnel { reflection: Spectrum::ONE, transmission: Spectrum::ONE } }
+    }
     pub(super) fn add_branches(&self, wo: Vector3, branches: &mut Branches) {
         let eta = if wo.z > 0.0 { self.eta } else { 1.0 / self.eta };
         let refracted = refract(wo, Normal3::new(0.0, 0.0, 1.0), 1.0 / eta);
         let (reflection, transmission) = match self.split {
-            Split::Fresnel => {
+            Split::Fresnel { reflection, transmission } => {
                 let f = fresnel_dielectric(wo.z.abs().min(1.0), eta);
-                (Spectrum::splat(f), Spectrum::splat(1.0 - f))
+                (reflection * f, transmission * (1.0 - f))
             }
             Split::Constant { reflection, transmission } => (reflection, transmission),
         };
@@ -55,7 +64,7 @@ impl Interface {
     }
     pub(super) fn tint(&self) -> Spectrum {
         match self.split {
-            Split::Fresnel => Spectrum::ONE,
+            Split::Fresnel { transmission, .. } => transmission,
             Split::Constant { reflection, transmission } => reflection + transmission,
         }
     }

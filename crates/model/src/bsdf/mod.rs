@@ -53,11 +53,15 @@ impl Bsdf {
     }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
-        self.lobes.iter().flatten()
+        self.lobes[..self.count].iter().flatten()
     }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
+    }
+    /// True if no light without extent is reflected: all lobes are perfectly sharp.
+    pub fn is_sharp(&self) -> bool {
+        !self.lobes().any(|lobe| matches!(lobe, Lobe::Diffuse { .. } | Lobe::Highlight(_) | Lobe::Glossy(_)))
     }
     /// Coefficient of the ambient term: diffuse albedo, or the ambient coefficient of a classic material.
     pub fn ambient(&self) -> Spectrum {

@@ -23,6 +23,7 @@ pub struct Classic {
     reflection: ColorInput,
     transmission: ColorInput,
     eta: f32,
+    fresnel: bool,
 }
 
 const BLACK: [f32; 3] = [0.0; 3];
@@ -51,6 +52,12 @@ impl Kind for Classic {
                 .range(0.0, f32::INFINITY),
             ParamSpec::color_texture("transmission", BLACK, "Weight of the refracted ray; opaque if 0.")
                 .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "fresnel",
+                ParamType::Bool,
+                ParamDefault::Bool(false),
+                "Multiplies reflection and transmission by Fresnel's shares instead of keeping them constant.",
+            ),
             ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
                 .range(0.1, 10.0),
         ],
@@ -65,6 +72,7 @@ impl Kind for Classic {
             reflection: share_input(args, "reflection"),
             transmission: share_input(args, "transmission"),
             eta: args.float("eta"),
+            fresnel: args.bool("fresnel"),
         }))
     }
 }
@@ -83,7 +91,10 @@ impl Material for Classic {
         let reflection = share(cx, self.reflection, &at);
         let transmission = share(cx, self.transmission, &at);
         if !transmission.is_black() {
-            let split = Split::Constant { reflection, transmission };
+            let split = match self.fresnel {
+                true => Split::Fresnel { reflection, transmission },
+                false => Split::Constant { reflection, transmission },
+            };
             bsdf.with(Lobe::Interface(Interface { eta: self.eta, split }))
         } else if !reflection.is_black() {
             bsdf.with(Lobe::Mirror { weight: reflection })

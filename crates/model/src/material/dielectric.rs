@@ -5,7 +5,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 use super::{Material, warn_unsupported};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Interface, Lobe, Split},
+    bsdf::{Bsdf, Interface, Lobe},
 };
 
 /// A smooth interface; the outside is where the normal points.
@@ -50,6 +50,6 @@ impl Kind for Dielectric {
 
 impl Material for Dielectric {
     fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
-        Bsdf::default().with(Lobe::Interface(Interface { eta: self.eta, split: Split::Fresnel }))
+        Bsdf::default().with(Lobe::Interface(Interface::clear(self.eta)))
     }
 }

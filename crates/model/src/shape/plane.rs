@@ -51,8 +51,9 @@ impl Carrier {
     pub(super) fn coordinates(&self, p: DVec3) -> [f64; 2] {
         [self.u.dot(p - self.origin), self.v.dot(p - self.origin)]
     }
-    /// The parameter at which the line of `ray` meets the plane and a bound on its absolute error. `None` for rays that
-    /// are parallel to the plane as far as can be told, and degenerate ones.
+    /// The parameter at which `ray` meets the plane and a bound on its absolute error. `None` if it lies behind the ray,
+    /// for rays that are parallel to the plane as far as can be told, and degenerate ones.
+    #[inline]
     pub(super) fn meet(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (o, d) = (ray.o.to_f64(), ray.d.to_f64());
         let sum = |v: DVec3| v.abs().element_sum();
@@ -60,6 +61,9 @@ impl Carrier {
         let slope_error = 8.0 * f64::EPSILON * sum(d);
         let height_error = 8.0 * f64::EPSILON * (sum(o) + sum(self.origin));
         let t = -self.height(o) / slope;
+        if t < ray.t_min.into() {
+            return None;
+        }
         let error = (height_error + t.abs() * slope_error) / slope.abs() + f64::EPSILON * t.abs();
         (slope.abs() > slope_error && t.is_finite()).then_some((t, error))
     }

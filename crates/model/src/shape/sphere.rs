@@ -118,7 +118,7 @@ impl Shape for Sphere {
 
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
         let roots = self.roots(ray)?;
-        if roots.far() < ray.t_min.into() || roots.near() > ray.t_max.into() {
+        if roots.far() < ray.t_min.into() || roots.near() as f32 > ray.t_max {
             return None;
         }
         let error = self.error(ray, &roots);
@@ -131,9 +131,9 @@ impl Shape for Sphere {
     fn surface(&self, ray: &Ray, hit: &ShapeHit) -> Surface {
         // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
         let wanted = f64::from(hit.t);
-        let t = self.roots(ray).map_or(wanted, |roots| {
-            if wanted <= roots.middle { roots.near() } else { roots.far() }
-        });
+        let t = self
+            .roots(ray)
+            .map_or(wanted, |roots| if wanted <= roots.middle { roots.near() } else { roots.far() });
         let exact = self.point(ray, t);
         let p = Point3::from_f64(exact);
         let n = Normal3::from_f64(exact / f64::from(self.radius));

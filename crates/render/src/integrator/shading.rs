@@ -60,22 +60,24 @@ impl Shading {
         sum
     }
 
-    /// A sample of one light and what its arriving light is multiplied with; `None` if the light cannot matter here,
-    /// whatever is in between.
+    /// A sample of one light and what its arriving light is multiplied with; `None` if the light lies behind the surface,
+    /// or the surface reflects no lights.
     pub(super) fn light(
         &self,
         cx: &SampleCx<'_>,
         light: usize,
         sampler: &Sampler,
     ) -> Option<(Spectrum, LightSample)> {
+        if self.bsdf.is_sharp() {
+            return None;
+        }
         let sample = cx.scene.lights[light].sample(cx.basis, self.surface.p, sampler)?;
         // Light from the other side of the true surface does not come through, whatever the shading normal says.
         if self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo) {
             return None;
         }
         let wi = self.frame.to_local(sample.wi);
-        let weight = self.bsdf.eval(self.frame.to_local(self.wo), wi) * wi.z.abs();
-        (!weight.is_black()).then_some((weight, sample))
+        Some((self.bsdf.eval(self.frame.to_local(self.wo), wi) * wi.z.abs(), sample))
     }
 
     /// Near silhouettes a shading normal can send a mirrored ray into the surface, or a refracted one out of it: such a

@@ -1,0 +1,30 @@
+//! `cargo xtask test`: everything that must hold before a change is taken.
+use crate::{needs, steps::Steps};
+
+/// How much is checked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// Everything.
+    Full,
+    /// Formatting and tests.
+    Quick,
+}
+
+/// Checks the tools, then runs the steps.
+pub(crate) fn run(extent: Extent) -> anyhow::Result<()> {
+    let full = extent == Extent::Full;
+    needs::check(full)?;
+    let mut steps = Steps::default();
+    steps.cargo(&["fmt", "--all", "--check"], &[])?;
+    if full {
+        steps.cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
+    }
+    steps.cargo(&["test", "--workspace"], &[])?;
+    if full {
+        steps.cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")])?;
+        steps.cargo(&["build", "--release"], &[])?;
+    }
+    steps.print();
+    println!("\nall steps passed");
+    Ok(())
+}
