@@ -17,6 +17,8 @@ pub(crate) struct Instance {
     pub(crate) pose: Pose,
     /// Box in render space around everything, over all time.
     pub(crate) bounds: Bounds3,
+    /// That box is finite and excludes something.
+    pub(crate) is_bounded: bool,
     /// The same around its finite primitives.
     pub(crate) finite: Bounds3,
 }
@@ -41,8 +43,6 @@ pub struct Accel {
     pub(crate) order: Vec<u32>,
     pub(crate) geometries: Vec<Geometry>,
     pub(crate) instances: Vec<Instance>,
-    /// Some geometry consists of triangles.
-    triangles: bool,
     bounds: Bounds3,
 }
 
@@ -59,8 +59,7 @@ impl Accel {
             base += geometry.tree.len() as u32;
         }
         let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
-        let triangles = geometries.iter().any(Geometry::has_triangles);
-        Self { engine, top, order, geometries, instances, triangles, bounds }
+        Self { engine, top, order, geometries, instances, bounds }
     }
 
     /// The nearest hit of `ray` with `t` in `[t_min, t_max]`; on equal `t` the one with the smaller
@@ -98,7 +97,7 @@ impl Accel {
         // A finite end keeps infinity, which a shape's division by 0 may return, from counting as a hit.
         let t_max = if ray.t_max == f32::INFINITY { f32::MAX } else { ray.t_max };
         let valid = ray.t_min <= t_max;
-        Space::new(&Ray { t_max, ..*ray }, &self.bounds, self.triangles).filter(|_| valid)
+        if valid { Space::new(&Ray { t_max, ..*ray }, &self.bounds) } else { None }
     }
 
     /// Box in render space around all finite primitives, over all time; empty if there are none.

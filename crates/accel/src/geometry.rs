@@ -46,6 +46,8 @@ impl LeafTriangle {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeafBox {
     pub(crate) bounds: Bounds3,
+    /// False for an infinite box, which excludes nothing.
+    pub(crate) finite: bool,
     /// Index in the list as given.
     pub(crate) prim: u32,
 }
@@ -104,7 +106,11 @@ impl Geometry {
         let around = |all: Bounds3, b: &Bounds3| all.union(*b);
         let finite = given.iter().filter(|b| b.is_finite()).fold(Bounds3::EMPTY, around);
         let bounds = given.iter().fold(Bounds3::EMPTY, around);
-        let leaves = order.iter().map(|&prim| LeafBox { bounds: given[prim as usize], prim }).collect();
+        let leaf = |prim: u32| {
+            let bounds = given[prim as usize];
+            LeafBox { bounds, finite: bounds.is_finite(), prim }
+        };
+        let leaves = order.into_iter().map(leaf).collect();
         Ok(Self { tree, items: Items::Boxes(leaves), finite, bounds })
     }
 

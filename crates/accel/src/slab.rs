@@ -5,7 +5,7 @@
 //! result (Ize 2013, "Robust BVH Ray Traversal") the origin is moved once per ray, one way for lower and the other way
 //! for upper planes, far enough to cover both these roundings and those of the shear in the triangle test (Woop,
 //! Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", section 4, does the same).
-use durer_core::math::{Bounds3, Ray, error::gamma};
+use durer_core::math::{Bounds3, Ray, Vector3, error::gamma};
 
 /// A ray's constants for testing boxes inside a known region.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +33,9 @@ impl Slab {
     /// direction or a non-finite origin.
     pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
         let largest = ray.d.abs().max_component();
-        let valid = ray.o.is_finite() && ray.d.is_finite() && largest > 0.0 && (1.0 / largest).is_finite();
-        if !valid {
+        // x - x is 0 only for finite x.
+        let finite = (ray.o - ray.o) + (ray.d - ray.d) == Vector3::ZERO;
+        if !(finite && largest > 0.0 && (1.0 / largest).is_finite()) {
             return None;
         }
         // A direction this much smaller than the largest moves the ray by less than the padding within the region;
@@ -49,10 +50,12 @@ impl Slab {
             if r.is_finite() { r } else { 0.0 }
         });
         let along = reach[ray.d.max_axis()];
-        // 3 roundings here, 3 in the shear of either triangle test, doubled.
-        let pad = reach.map(|r| gamma(12) * (r + along));
-        let o_lower = std::array::from_fn(|a| (ray.o[a] + pad[a]).next_up());
-        let o_upper = std::array::from_fn(|a| (ray.o[a] - pad[a]).next_down());
+        // 3 roundings here, 3 in the shear of either triangle test, doubled; then that of moving the origin itself.
+        let pad: [f32; 3] = std::array::from_fn(|a| {
+            gamma(13) * (reach[a] + along) + (f32::EPSILON * ray.o[a].abs() + f32::MIN_POSITIVE)
+        });
+        let o_lower = std::array::from_fn(|a| ray.o[a] + pad[a]);
+        let o_upper = std::array::from_fn(|a| ray.o[a] - pad[a]);
         Some(Self { o_lower, o_upper, inverse })
     }
 
@@ -85,6 +88,9 @@ pub(crate) struct Window {
 }
 
 impl Window {
+    /// Of all of space.
+    pub(crate) const ALL: Self = Self { near: f32::NEG_INFINITY, far: f32::INFINITY };
+
     /// Whether a hit in `[t_min, t_max]` is possible. Equality counts: ties are decided by id, not by traversal.
     #[inline(always)]
     pub(crate) fn admits(&self, t_min: f32, t_max: f32) -> bool {
@@ -95,7 +101,7 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_core::math::{Point3, Vector3};
+    use durer_core::math::Point3;
 
     fn unit() -> Bounds3 {
         Bounds3::new(Point3::ZERO, Point3::splat(1.0))

@@ -10,7 +10,7 @@ use crate::{
     slab::Window,
     space::Space,
     tree::{Leaves, Span},
-    triangle,
+    triangle::{self, Shear},
 };
 
 /// The caller's side of a query.
@@ -37,8 +37,22 @@ struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
     near: f32,
     /// The ray in object space.
     space: &'a Space,
+    /// What triangle tests need of the ray, where there are triangles.
+    shear: Option<Shear>,
     /// Test everything, whatever was found.
     exhaustive: bool,
+}
+
+impl Instance {
+    fn window(&self, world: &Space) -> Window {
+        if self.is_bounded { world.slab.window_of(&self.bounds) } else { Window::ALL }
+    }
+}
+
+impl LeafBox {
+    fn window(&self, space: &Space) -> Window {
+        if self.finite { space.slab.window_of(&self.bounds) } else { Window::ALL }
+    }
 }
 
 impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
@@ -55,16 +69,17 @@ impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
         let space = match instance.pose.object_ray(&self.world.ray) {
             None => self.world,
             Some(ray) => {
-                transformed = Space::new(&ray, &geometry.finite, geometry.has_triangles())?;
+                transformed = Space::new(&ray, &geometry.finite)?;
                 &transformed
             }
         };
+        let shear = if geometry.has_triangles() { Some(Shear::new(&space.ray)?) } else { None };
         let exhaustive = self.accel.engine == Engine::BruteForce;
         let query = &mut self.query;
         Some(visit(
             geometry,
             space,
-            &mut BottomLevel { geometry, query, instance: index, near, space, exhaustive },
+            &mut BottomLevel { geometry, query, instance: index, near, space, shear, exhaustive },
         ))
     }
 }
@@ -80,7 +95,7 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for TopLevel<'_, U, P> {
         let t_min = self.world.ray.t_min;
         for &index in &accel.order[items] {
             let instance = &accel.instances[index as usize];
-            let window = self.world.slab.window_of(&instance.bounds);
+            let window = instance.window(self.world);
             let admitted = window.admits(t_min, best.t);
             if !admitted && accel.engine == Engine::Bvh {
                 continue;
@@ -100,7 +115,7 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for TopLevel<'_, U, P> {
         let mut blocked = false;
         for &index in &accel.order[items] {
             let instance = &accel.instances[index as usize];
-            let window = self.world.slab.window_of(&instance.bounds);
+            let window = instance.window(self.world);
             let admitted = window.admits(t_min, t_max);
             if !admitted && accel.engine == Engine::Bvh {
                 continue;
@@ -131,7 +146,7 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
     #[inline]
     fn triangle(&mut self, leaf: &LeafTriangle, t_max: f32) -> Option<Hit> {
         self.query.probe.primitive(self.query.id, self.instance, leaf.prim);
-        let shear = self.space.shear.as_ref()?;
+        let shear = self.shear.as_ref()?;
         let found = triangle::intersect(shear, &leaf.vertices, self.space.ray.t_min, t_max)?;
         let [_, u, v] = found.weights;
         let window = self.space.slab.window_of(&leaf.bounds());
@@ -139,7 +154,7 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
     }
 
     fn user(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Hit> {
-        let window = self.space.slab.window_of(&leaf.bounds);
+        let window = leaf.window(self.space);
         let ray = self.user_ray(leaf.prim, window, t_max)?;
         let found = self.query.user.intersect(self.instance, leaf.prim, &ray)?;
         self.hit(leaf.prim, found, window, t_max)
@@ -147,7 +162,7 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
 
     fn user_blocks(&mut self, leaf: &LeafBox) -> bool {
         let Ray { t_min, t_max, .. } = self.space.ray;
-        let window = self.space.slab.window_of(&leaf.bounds);
+        let window = leaf.window(self.space);
         let Some(ray) = self.user_ray(leaf.prim, window, t_max) else {
             return false;
         };

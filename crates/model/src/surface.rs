@@ -35,10 +35,7 @@ impl Surface {
         let (_, back) = m.inverse().point_with_error(p, Vector3::ZERO);
         // NUMERICS: twice, because the coefficients of both matrices are rounded too
         // (grazing_rays_never_meet_the_surface_they_leave).
-        let carried = back * 2.0;
-        let again =
-            m.rows().map(|r| r[0].abs() * carried.x + r[1].abs() * carried.y + r[2].abs() * carried.z);
-        let p_error = there + Vector3::from(again);
+        let p_error = there + m.reach(back * 2.0);
         let turn = |n: Normal3| {
             let n = m.normal(n).normalize();
             if reverse { -n } else { n }

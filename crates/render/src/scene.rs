@@ -85,7 +85,12 @@ impl View {
     pub fn ray(&self, film: Point2, time: f32, sampler: &Sampler) -> Ray {
         let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
         let ray = self.render_from_camera.ray(&self.camera.ray(film, time, sampler));
-        Ray { d: ray.d.normalize(), ..ray }
+        // PERF: a placement without scale keeps the length (bench render).
+        if (ray.d.length_squared() - 1.0).abs() <= 4.0 * f32::EPSILON {
+            ray
+        } else {
+            Ray { d: ray.d.normalize(), ..ray }
+        }
     }
     /// Cosine between unit direction `d` and the camera's axis: depth along the axis per ray length.
     pub fn cos_to_axis(&self, d: Vector3) -> f32 {

@@ -89,7 +89,8 @@ impl AccelBuilder {
         let pose = Pose::new(placement, self.instances.len())?;
         let bounds = pose.bounds(&placed.bounds);
         let finite = Some(pose.bounds(&placed.finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
-        self.instances.push(Instance { geometry, pose, bounds, finite });
+        let is_bounded = bounds.is_finite();
+        self.instances.push(Instance { geometry, pose, bounds, is_bounded, finite });
         Ok(index)
     }
 

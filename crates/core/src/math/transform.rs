@@ -1,5 +1,5 @@
 //! Affine maps with their inverses, and the rounding errors they add (Physically Based Rendering, section 6.8.4).
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::{Bounds3, Normal3, Point3, Ray, Vector3, error::gamma};
 
@@ -11,6 +11,8 @@ type Rows = [[f32; 4]; 3];
 pub struct Transform {
     m: Rows,
     inverse: Rows,
+    /// The linear part is the identity. PERF: most things in hand-written scenes are only moved (bench render).
+    only_moves: bool,
 }
 
 fn rows(a: &DAffine3) -> Rows {
@@ -28,12 +30,13 @@ impl Transform {
     /// The map that leaves everything where it is.
     pub const IDENTITY: Self = {
         let i = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        Self { m: i, inverse: i }
+        Self { m: i, inverse: i, only_moves: true }
     };
 
     /// Rounds `a` and its f64 inverse. The inverse of a singular map holds infinities or NaN: see `is_invertible`.
     pub fn from_f64(a: &DAffine3) -> Self {
-        Self { m: rows(a), inverse: rows(&a.inverse()) }
+        let only_moves = a.matrix3 == DMat3::IDENTITY;
+        Self { m: rows(a), inverse: rows(&a.inverse()), only_moves }
     }
     /// Translation by `v`.
     pub fn translate(v: Vector3) -> Self {
@@ -42,11 +45,11 @@ impl Transform {
     /// This map in double precision (of the rounded coefficients).
     pub fn to_f64(&self) -> DAffine3 {
         let c = |j: usize| DVec3::new(self.m[0][j].into(), self.m[1][j].into(), self.m[2][j].into());
-        DAffine3 { matrix3: glam::DMat3::from_cols(c(0), c(1), c(2)), translation: c(3) }
+        DAffine3 { matrix3: DMat3::from_cols(c(0), c(1), c(2)), translation: c(3) }
     }
     /// The inverse map.
     pub fn inverse(&self) -> Self {
-        Self { m: self.inverse, inverse: self.m }
+        Self { m: self.inverse, inverse: self.m, only_moves: self.only_moves }
     }
     /// False if a coefficient of the map or its inverse is infinite or NaN.
     pub fn is_invertible(&self) -> bool {
@@ -62,13 +65,22 @@ impl Transform {
     }
 
     /// Maps a position.
+    #[inline]
     pub fn point(&self, p: Point3) -> Point3 {
+        if self.only_moves {
+            return Point3::new(p.x + self.m[0][3], p.y + self.m[1][3], p.z + self.m[2][3]);
+        }
         let v = p.to_array();
         let [x, y, z] = self.m.each_ref().map(|r| dot3(r, v) + r[3]);
         Point3::new(x, y, z)
     }
     /// Maps a position known to within `error` per coordinate; also returns the error of the result.
     pub fn point_with_error(&self, p: Point3, error: Vector3) -> (Point3, Vector3) {
+        if self.only_moves {
+            let q = self.point(p);
+            // One rounding of the sum.
+            return (q, error + (q - Point3::ZERO).abs() * gamma(1));
+        }
         let (v, e) = (p.to_array(), error.to_array());
         let [x, y, z] = self.m.each_ref().map(|r| {
             let magnitude = (r[0] * v[0]).abs() + (r[1] * v[1]).abs() + (r[2] * v[2]).abs() + r[3].abs();
@@ -78,16 +90,30 @@ impl Transform {
         (self.point(p), Vector3::new(x, y, z))
     }
     /// Maps a direction.
+    #[inline]
     pub fn vector(&self, d: Vector3) -> Vector3 {
+        if self.only_moves {
+            return d;
+        }
         let v = d.to_array();
         let [x, y, z] = self.m.each_ref().map(|r| dot3(r, v));
         Vector3::new(x, y, z)
     }
     /// Maps a normal by the inverse transpose; the length is not kept.
     pub fn normal(&self, n: Normal3) -> Normal3 {
+        if self.only_moves {
+            return n;
+        }
         let i = &self.inverse;
         let c = |j: usize| i[0][j] * n.x + i[1][j] * n.y + i[2][j] * n.z;
         Normal3::new(c(0), c(1), c(2))
+    }
+    /// Absolute values of the linear part times `v`: how far errors of `v` can reach.
+    pub fn reach(&self, v: Vector3) -> Vector3 {
+        if self.only_moves {
+            return v;
+        }
+        Vector3::from(self.m.map(|r| r[0].abs() * v.x + r[1].abs() * v.y + r[2].abs() * v.z))
     }
     /// Maps a ray; the direction is not normalised, so `t` means the same on both sides.
     pub fn ray(&self, r: &Ray) -> Ray {

@@ -39,8 +39,11 @@ impl Sampler {
 
     /// The sampler of a child ray: different numbers for every `branch` (mirror and transmitted ray, i-th of n rays).
     #[must_use]
+    #[inline]
     pub fn fork(self, branch: u32) -> Self {
-        Self { key: combine(self.key, u64::from(branch)), ..self }
+        // PERF: one multiplication, as most forks are never asked for a number; d2 mixes the key (bench render).
+        let key = (self.key ^ (u64::from(branch) + 1)).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29);
+        Self { key, ..self }
     }
 
     /// A number in `[0, 1)`.

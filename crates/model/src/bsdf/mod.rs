@@ -39,7 +39,14 @@ impl Bsdf {
 
     /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
     #[must_use]
+    #[inline]
     pub fn with(mut self, lobe: Lobe) -> Self {
+        self.add(lobe);
+        self
+    }
+    /// Adds a lobe, like [`Bsdf::with`].
+    #[inline]
+    pub fn add(&mut self, lobe: Lobe) {
         debug_assert!(
             self.count < Self::MOST_LOBES,
             "a material returns more than {} lobes",
@@ -49,7 +56,6 @@ impl Bsdf {
             *place = Some(lobe);
             self.count += 1;
         }
-        self
     }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {

@@ -80,13 +80,14 @@ impl Kind for Classic {
 impl Material for Classic {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
-        let mut bsdf = Bsdf::default().with(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
+        let mut bsdf = Bsdf::default();
+        bsdf.add(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
         if let Some(ambient) = self.ambient {
-            bsdf = bsdf.with(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
+            bsdf.add(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
         }
         let specular = share(cx, self.specular, &at);
         if !specular.is_black() {
-            bsdf = bsdf.with(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
+            bsdf.add(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
         }
         let reflection = share(cx, self.reflection, &at);
         let transmission = share(cx, self.transmission, &at);
@@ -95,11 +96,10 @@ impl Material for Classic {
                 true => Split::Fresnel { reflection, transmission },
                 false => Split::Constant { reflection, transmission },
             };
-            bsdf.with(Lobe::Interface(Interface { eta: self.eta, split }))
+            bsdf.add(Lobe::Interface(Interface { eta: self.eta, split }));
         } else if !reflection.is_black() {
-            bsdf.with(Lobe::Mirror { weight: reflection })
-        } else {
-            bsdf
+            bsdf.add(Lobe::Mirror { weight: reflection });
         }
+        bsdf
     }
 }

@@ -22,7 +22,10 @@ pub struct Checkerboard<V> {
 impl<V: Value> Checkerboard<V> {
     fn square(&self, at: &TextureAt) -> V {
         // Parities are added, not floors: large coordinates would round their sum.
-        let odd = self.mapping.apply(at.uv).map(|c| c.floor().rem_euclid(2.0) == 1.0);
+        let odd = self.mapping.apply(at.uv).map(|c| {
+            let half = c.floor() * 0.5;
+            half != half.floor()
+        });
         if odd[0] == odd[1] { self.tex1 } else { self.tex2 }
     }
 }

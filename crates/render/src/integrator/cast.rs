@@ -116,7 +116,8 @@ impl Cast {
             Show::Albedo => Value::Radiance(s.bsdf.albedo()),
             Show::Shading => {
                 let mut radiance = s.emission + s.ambient(cx);
-                for light in 0..cx.scene.lights.len() {
+                let lights = if s.bsdf.is_sharp() { 0 } else { cx.scene.lights.len() };
+                for light in 0..lights {
                     if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {
                         radiance += weight * sample.weight;
                     }

@@ -26,6 +26,8 @@ pub(super) struct Shading {
     pub(super) frame: Frame,
     /// Unit direction back along the ray.
     pub(super) wo: Vector3,
+    /// The same in the frame of the lobes.
+    pub(super) wo_local: Vector3,
     /// What the surface sends out by itself.
     pub(super) emission: Spectrum,
 }
@@ -38,7 +40,8 @@ impl Shading {
         let wo = -ray.d;
         let emission = material.emission(&cx.shade(), &surface.texture_at());
         let bsdf = material.bsdf(&cx.shade(), &mut surface, wo);
-        Self { object, bsdf, frame: surface.frame(), wo, emission, surface }
+        let frame = surface.frame();
+        Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, surface }
     }
 
     /// The ambient term, and the sky's blurred image in glossy lobes.
@@ -51,7 +54,7 @@ impl Shading {
                 sum += coefficient * light.ambient(cx.basis, n);
             }
         }
-        if let Some(glossy) = self.bsdf.glossy(self.frame.to_local(self.wo)) {
+        if let Some(glossy) = self.bsdf.glossy(self.wo_local) {
             let d = self.frame.to_world(glossy.wi);
             for light in &cx.scene.lights {
                 sum += glossy.weight * light.glossy_ambient(cx.basis, d, glossy.alpha);
@@ -60,24 +63,21 @@ impl Shading {
         sum
     }
 
-    /// A sample of one light and what its arriving light is multiplied with; `None` if the light lies behind the surface,
-    /// or the surface reflects no lights.
+    /// A sample of one light and what its arriving light is multiplied with; `None` if the light lies behind the surface
+    /// or is none to cast shadow rays to. Pointless where all lobes are sharp.
     pub(super) fn light(
         &self,
         cx: &SampleCx<'_>,
         light: usize,
         sampler: &Sampler,
     ) -> Option<(Spectrum, LightSample)> {
-        if self.bsdf.is_sharp() {
-            return None;
-        }
         let sample = cx.scene.lights[light].sample(cx.basis, self.surface.p, sampler)?;
         // Light from the other side of the true surface does not come through, whatever the shading normal says.
         if self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo) {
             return None;
         }
         let wi = self.frame.to_local(sample.wi);
-        Some((self.bsdf.eval(self.frame.to_local(self.wo), wi) * wi.z.abs(), sample))
+        Some((self.bsdf.eval(self.wo_local, wi) * wi.z.abs(), sample))
     }
 
     /// Near silhouettes a shading normal can send a mirrored ray into the surface, or a refracted one out of it: such a

@@ -117,7 +117,8 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.surface(id, s.object, hit, &s.surface);
         let mut radiance = s.emission + s.ambient(cx);
         self.probe.local(id, radiance);
-        for light in 0..cx.scene.lights.len() {
+        let lights = if s.bsdf.is_sharp() { 0 } else { cx.scene.lights.len() };
+        for light in 0..lights {
             let sampler = ray.sampler.fork(LIGHT_BRANCH + light as u32);
             if let Some((weight, sample)) = s.light(cx, light, &sampler) {
                 radiance += weight * self.shadow(ray, &s, light, weight, &sample, id);
@@ -165,7 +166,7 @@ impl<P: Probe> Walk<'_, P> {
 
     /// Adds mirrored and refracted rays to `radiance`, in this order: the recorder folds them the same way.
     fn branches(&mut self, parent: &PathRay, s: &Shading, id: P::Id, mut radiance: Spectrum) -> Spectrum {
-        let branches = s.bsdf.branches(s.frame.to_local(s.wo));
+        let branches = s.bsdf.branches(s.wo_local);
         let mut count = 0;
         for branch in branches.iter() {
             let kind = match branch.kind {

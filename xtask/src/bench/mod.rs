@@ -1,0 +1,145 @@
+//! `cargo xtask bench render`: durer and POV-Ray draw the same scene in turns.
+//!
+//! In turns, so that what else the machine does hits both; the medians are what to quote. durer counts its rays while
+//! it is timed, as POV-Ray does.
+mod durer;
+mod povray;
+mod report;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use anyhow::{Context, bail};
+use serde_json::Value;
+
+use crate::{cargo, root};
+
+/// Pixels per row.
+const WIDTH: u32 = 1280;
+/// Rows.
+const HEIGHT: u32 = 960;
+/// Worker threads of both.
+const THREADS: u32 = 2;
+
+/// What was asked for.
+pub(crate) struct Options {
+    json: bool,
+    runs: usize,
+}
+
+impl Options {
+    /// From the words after `bench render`.
+    pub(crate) fn parse(words: &[&str]) -> anyhow::Result<Self> {
+        let mut options = Self { json: false, runs: 5 };
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
+            match *word {
+                "--json" => options.json = true,
+                "--runs" => {
+                    let count = words.next().and_then(|n| n.parse().ok()).filter(|n| *n > 0);
+                    options.runs = count.context("--runs wants a number of at least 1")?;
+                }
+                other => bail!("unknown option \"{other}\"; see `cargo xtask help`"),
+            }
+        }
+        Ok(options)
+    }
+}
+
+/// What one run took and did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Run {
+    /// Seconds from process start to end.
+    wall: f64,
+    /// Processor seconds of the process in user mode.
+    user: Option<f64>,
+    /// Seconds that the program says it traced rays for.
+    trace: f64,
+    /// Eye, reflected and refracted rays.
+    rays: u64,
+    /// Shadow rays.
+    shadow_tests: u64,
+}
+
+impl Run {
+    /// The middle of each figure on its own. Of an even number it is the mean of the two in the middle.
+    fn median(runs: &[Self]) -> Self {
+        let of = |figure: &dyn Fn(&Self) -> f64| median(runs.iter().map(figure).collect());
+        let users: Option<Vec<f64>> = runs.iter().map(|run| run.user).collect();
+        Self {
+            wall: of(&|run| run.wall),
+            user: users.map(median),
+            trace: of(&|run| run.trace),
+            rays: of(&|run| run.rays as f64) as u64,
+            shadow_tests: of(&|run| run.shadow_tests as f64) as u64,
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match (values.len() % 2, values.get(middle), values.get(middle.wrapping_sub(1))) {
+        (0, Some(high), Some(low)) => (high + low) / 2.0,
+        (_, Some(value), _) => *value,
+        _ => f64::NAN,
+    }
+}
+
+/// Builds, renders in turns, reports.
+pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
+    let target = target_folder()?;
+    eprintln!("==> cargo build --release");
+    let built = Command::new(cargo()).args(["build", "--release"]).current_dir(root()?).status()?;
+    if !built.success() {
+        bail!("durer cannot be built");
+    }
+    let folder = target.join("bench");
+    fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    let scenes = root()?.join("benches");
+    let program = target.join("release").join(format!("durer{}", std::env::consts::EXE_SUFFIX));
+    let with_povray = povray::is_installed();
+    if !with_povray {
+        eprintln!("povray is not installed: durer runs alone (on Debian: apt-get install povray)");
+    }
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for number in 1..=options.runs {
+        eprintln!("==> run {number} of {}", options.runs);
+        ours.push(durer::render(&program, &scenes.join("povray_spheres.pbrt"), &folder)?);
+        if with_povray {
+            theirs.push(povray::render(&scenes.join("povray_spheres.pov"), &folder)?);
+        }
+    }
+    report::print(&ours, &theirs, options.json)
+}
+
+fn target_folder() -> anyhow::Result<PathBuf> {
+    let words = ["metadata", "--format-version", "1", "--no-deps", "--offline"];
+    let output = Command::new(cargo()).args(words).current_dir(root()?).output()?;
+    let metadata: Value = serde_json::from_slice(&output.stdout).context("cargo metadata")?;
+    let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;
+    Ok(Path::new(folder).to_path_buf())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert_eq!(median(vec![7.0]), 7.0);
+    }
+
+    #[test]
+    fn options_are_read() {
+        let options = Options::parse(&["--runs", "3", "--json"]).expect("good options");
+        assert!(options.json && options.runs == 3);
+        assert!(Options::parse(&["--runs", "0"]).is_err() && Options::parse(&["--runs"]).is_err());
+        assert!(Options::parse(&["--fast"]).is_err());
+    }
+}

@@ -1,0 +1,104 @@
+//! The figures as a table or as JSON.
+use serde_json::{Value, json};
+
+use super::{HEIGHT, Run, THREADS, WIDTH};
+
+/// Prints them on stdout; `theirs` is empty where POV-Ray is not installed.
+pub(super) fn print(ours: &[Run], theirs: &[Run], as_json: bool) -> anyhow::Result<()> {
+    if as_json {
+        println!("{}", serde_json::to_string_pretty(&as_value(ours, theirs))?);
+    } else {
+        print!("{}", as_table(ours, theirs));
+    }
+    Ok(())
+}
+
+fn as_table(ours: &[Run], theirs: &[Run]) -> String {
+    let mut text = format!("povray_spheres, {WIDTH} x {HEIGHT}, one sample per pixel, {THREADS} threads\n\n");
+    let heads = ["wall s", "user s", "trace s", "rays", "shadow tests"];
+    text.push_str(&line("", &heads.map(str::to_owned)));
+    for (name, runs) in [("durer", ours), ("povray", theirs)] {
+        if runs.is_empty() {
+            continue;
+        }
+        for (number, run) in runs.iter().enumerate() {
+            text.push_str(&row(&format!("{name}, run {}", number + 1), run));
+        }
+        text.push_str(&row(&format!("{name}, median"), &Run::median(runs)));
+    }
+    if !theirs.is_empty() {
+        let cells =
+            ratios(ours, theirs).map(|(_, ratio)| ratio.map_or("-".to_owned(), |r| format!("{r:.3}")));
+        text.push_str(&line("durer / povray", &cells));
+    }
+    text
+}
+
+fn row(name: &str, run: &Run) -> String {
+    let time = |seconds: f64| format!("{seconds:.3}");
+    let user = run.user.map_or("-".to_owned(), time);
+    line(name, &[time(run.wall), user, time(run.trace), run.rays.to_string(), run.shadow_tests.to_string()])
+}
+
+fn line(name: &str, cells: &[String; 5]) -> String {
+    let cells: String = cells.iter().map(|cell| format!(" {cell:>12}")).collect();
+    format!("{name:<16}{cells}\n")
+}
+
+/// Medians of durer by those of POV-Ray: a time below 1 means that durer is faster.
+fn ratios(ours: &[Run], theirs: &[Run]) -> [(&'static str, Option<f64>); 5] {
+    let (a, b) = (Run::median(ours), Run::median(theirs));
+    [
+        ("wall", Some(a.wall / b.wall)),
+        ("user", a.user.zip(b.user).map(|(a, b)| a / b)),
+        ("trace", Some(a.trace / b.trace)),
+        ("rays", Some(a.rays as f64 / b.rays as f64)),
+        ("shadow_tests", Some(a.shadow_tests as f64 / b.shadow_tests as f64)),
+    ]
+}
+
+fn as_value(ours: &[Run], theirs: &[Run]) -> Value {
+    let one = |run: &Run| {
+        json!({
+            "wall": run.wall, "user": run.user, "trace": run.trace,
+            "rays": run.rays, "shadow_tests": run.shadow_tests,
+        })
+    };
+    let program = |runs: &[Run]| match runs {
+        [] => Value::Null,
+        _ => json!({ "runs": runs.iter().map(one).collect::<Vec<_>>(), "median": one(&Run::median(runs)) }),
+    };
+    let ratios = match theirs {
+        [] => Value::Null,
+        _ => ratios(ours, theirs).into_iter().map(|(name, ratio)| (name.to_owned(), json!(ratio))).collect(),
+    };
+    json!({
+        "version": 1, "scene": "povray_spheres", "width": WIDTH, "height": HEIGHT, "spp": 1, "threads": THREADS,
+        "durer": program(ours), "povray": program(theirs), "durer_by_povray": ratios,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RUN: Run = Run { wall: 0.5, user: Some(0.8), trace: 0.4, rays: 100, shadow_tests: 60 };
+
+    #[test]
+    fn ratios_are_ours_by_theirs() {
+        let slower = Run { wall: 1.0, user: None, trace: 0.8, rays: 200, ..RUN };
+        let value = as_value(&[RUN], &[slower]);
+        assert_eq!(value["durer_by_povray"]["wall"], 0.5);
+        assert_eq!(value["durer_by_povray"]["user"], Value::Null);
+        assert_eq!(value["durer_by_povray"]["shadow_tests"], 1.0);
+        assert!(
+            as_table(&[RUN], &[slower]).lines().last().is_some_and(|line| line.starts_with("durer / povray"))
+        );
+    }
+
+    #[test]
+    fn without_povray_durer_stands_alone() {
+        assert_eq!(as_value(&[RUN], &[])["povray"], Value::Null);
+        assert!(!as_table(&[RUN], &[]).contains("povray,"));
+    }
+}
