@@ -19,26 +19,27 @@ pub(crate) struct Measured {
 
 /// Runs a command to its end. Must not run beside other children of this process: their time would be counted too.
 pub(crate) fn measure(command: &mut Command) -> anyhow::Result<Measured> {
-    let before = user_time_of_children();
+    let before = user_ticks_of_children();
     let start = Instant::now();
     let output = command.output().with_context(|| format!("{command:?} cannot be started"))?;
     let wall = start.elapsed().as_secs_f64();
-    let user = user_time_of_children().zip(before).map(|(after, before)| after - before);
+    let ticks = user_ticks_of_children().zip(before).map(|(after, before)| after.saturating_sub(before));
+    let user = ticks.map(|ticks| ticks as f64 / TICKS_PER_SECOND);
     if !output.status.success() {
         bail!("{command:?} failed:\n{}", String::from_utf8_lossy(&output.stderr));
     }
     Ok(Measured { wall, user, output })
 }
 
-/// Seconds that children which have ended spent in user mode: `cutime` of Linux, in steps of 10 ms.
-fn user_time_of_children() -> Option<f64> {
-    /// `USER_HZ`, the same on every Linux that Rust's standard library runs on.
-    const TICKS_PER_SECOND: f64 = 100.0;
+/// Linux counts the time of processes in these, on x86 and ARM at least.
+const TICKS_PER_SECOND: f64 = 100.0;
+
+/// Time that children which have ended spent in user mode: `cutime` of Linux.
+fn user_ticks_of_children() -> Option<u64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     // The second field is the program's name in brackets and may hold blanks; `cutime` is the 16th field.
     let (_, after_name) = stat.rsplit_once(')')?;
-    let ticks: f64 = after_name.split_ascii_whitespace().nth(13)?.parse().ok()?;
-    Some(ticks / TICKS_PER_SECOND)
+    after_name.split_ascii_whitespace().nth(13)?.parse().ok()
 }
 
 #[cfg(test)]
