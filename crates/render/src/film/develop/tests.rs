@@ -1,3 +1,4 @@
+//! The encoding against its formula, and data pictures.
 use super::*;
 
 /// The formula, in f64: code values in [0, 1].

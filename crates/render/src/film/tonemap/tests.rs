@@ -1,3 +1,4 @@
+//! Tone curves against published values.
 use super::*;
 
 /// Greys from 2^-24 to 2^24, twelve to the octave.
