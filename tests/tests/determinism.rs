@@ -35,7 +35,9 @@ fn counting_changes_nothing_and_agrees_with_the_count_of_rays() {
     let counted = prepared.job().render(Gather::Counters, &(), &Default::default());
     assert!(bits(&plain) == bits(&counted));
     assert_eq!(plain.rays, counted.rays);
-    assert_eq!(counted.counters.expect("asked for").all_rays(), counted.rays);
+    let counters = counted.counters.expect("asked for");
+    assert_eq!(counters.all_rays(), counted.rays);
+    assert_eq!(counters.max_depth, 8, "the limit that the scene sets");
 }
 
 #[test]

@@ -171,7 +171,7 @@ impl Scene {
     }
 
     /// The object of a hit, and the hit triangle's number within its mesh.
-    fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
+    pub fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
         match &self.targets[hit.instance as usize] {
             Target::Merged => {
                 let merged = self.merged_at(hit.prim);

@@ -79,6 +79,20 @@ fn json_has_every_key_and_folds_to_the_pixel() {
 }
 
 #[test]
+fn every_key_is_documented() {
+    let page = include_str!("../../../../docs/json.md");
+    let place = Place::new();
+    let words = "--width 64 --height 36 --spp 1";
+    let tree = place.done(&format!("trace {words} --pixel 37,20 --json")).json();
+    let stats = place.done(&format!("render {words} --stats=json")).json();
+    for object in [&tree, &tree["nodes"][0], &stats] {
+        for key in object.as_object().expect("an object").keys() {
+            assert!(page.contains(&format!("`{key}`")), "docs/json.md does not mention {key}");
+        }
+    }
+}
+
+#[test]
 fn a_tree_goes_to_a_file_too() {
     let place = Place::new();
     let words = "trace --width 64 --height 36 --spp 1 --pixel 37,20";

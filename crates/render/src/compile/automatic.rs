@@ -1,7 +1,7 @@
 //! What a file lacks: a camera that frames everything, a neutral studio light.
 use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
-    math::{Bounds3, Motion},
+    math::{Bounds3, Motion, Point3, Vector3},
 };
 use durer_scene::{CameraDesc, Diagnostics, LightDesc, Location, Node, Params, SceneDesc};
 
@@ -10,24 +10,33 @@ use super::CompileOptions;
 /// Vertical field of view of the automatic camera, in degrees.
 const FOV: f32 = 35.0;
 
+/// How much wider than the scene the automatic picture is.
+const MARGIN: f64 = 1.06;
+
 /// A camera that sees all of `bounds`, from the right, somewhat above.
 pub(super) fn camera(bounds: Bounds3, options: &CompileOptions, diagnostics: &mut Diagnostics) -> CameraDesc {
     diagnostics.note(Location::None, "the scene has no camera: one that frames everything was added");
-    let (center, radius) = if bounds.is_empty() {
-        (DVec3::new(0.0, 0.5, 0.0), 1.5)
+    let bounds = if bounds.is_empty() || bounds.diagonal().max_component() == 0.0 {
+        let center = if bounds.is_empty() { Point3::new(0.0, 0.5, 0.0) } else { bounds.center() };
+        Bounds3::new(center - Vector3::splat(1.0), center + Vector3::splat(1.0))
     } else {
-        let radius = f64::from(bounds.diagonal().length()) * 0.5;
-        (bounds.center().to_f64(), if radius > 0.0 { radius } else { 1.0 })
+        bounds
     };
-    let aspect = f64::from(options.width) / f64::from(options.height);
-    let half = (f64::from(FOV) * 0.5).to_radians();
-    let narrow = if aspect < 1.0 { (half.tan() * aspect).atan() } else { half };
+    let center = bounds.center().to_f64();
     let towards_eye = DVec3::new(0.45, 0.35, 1.0).normalize();
-    let eye = center + towards_eye * (radius / narrow.sin());
+    let placed = look_at(center + towards_eye, center);
+    let aspect = f64::from(options.width) / f64::from(options.height);
+    let tan = (f64::from(FOV) * 0.5).to_radians().tan();
+    // A corner at (x, y, z), seen from the centre, is inside the picture once the eye is this far back.
+    let distance = bounds.corners().into_iter().fold(0.0f64, |farthest, corner| {
+        let p = placed.matrix3.transpose() * (corner.to_f64() - center);
+        let needed = (p.x.abs() / (tan * aspect)).max(p.y.abs() / tan) * MARGIN - p.z;
+        farthest.max(needed)
+    });
     CameraDesc {
         name: "automatic".to_owned(),
         node: Node::new("perspective", Params::new().float("fov", FOV).string("fovaxis", "y")),
-        world_from_camera: Motion::still(look_at(eye, center)),
+        world_from_camera: Motion::still(look_at(center + towards_eye * distance, center)),
     }
 }
 
@@ -66,4 +75,33 @@ pub(super) fn lights(
         world_from_light: Motion::still(DAffine3::IDENTITY),
     };
     vec![light("studio sky", Node::new("gradientsky", sky)), light("studio key", Node::new("distant", key))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_corner_is_in_the_picture_and_one_is_near_its_edge() {
+        let boxes = [
+            Bounds3::new(Point3::splat(-1.0), Point3::splat(1.0)),
+            Bounds3::new(Point3::new(100.0, 2.0, -7.0), Point3::new(101.0, 90.0, -6.9)),
+            Bounds3::new(Point3::ZERO, Point3::new(30.0, 0.0, 1e-3)),
+        ];
+        for bounds in boxes {
+            for (width, height) in [(1280, 720), (300, 900)] {
+                let desc = camera(bounds, &CompileOptions::new(width, height), &mut Diagnostics::default());
+                let camera_from_world = desc.world_from_camera.at(0.0).inverse();
+                let tan = f64::from(FOV * 0.5).to_radians().tan();
+                let (mut widest, mut behind) = (0.0f64, false);
+                for corner in bounds.corners() {
+                    let p = camera_from_world.transform_point3(corner.to_f64());
+                    behind |= p.z <= 0.0;
+                    let aspect = f64::from(width) / f64::from(height);
+                    widest = widest.max((p.x / p.z / (tan * aspect)).abs()).max((p.y / p.z / tan).abs());
+                }
+                assert!(!behind && widest < 1.0 && widest > 0.9, "{bounds:?} {width}: {widest}");
+            }
+        }
+    }
 }

@@ -1,9 +1,10 @@
 //! Counts of rays, stops and tests: `--stats`.
-use durer_accel::TraversalProbe;
-use durer_core::spectrum::Spectrum;
+use durer_accel::{Hit, TraversalProbe};
+use durer_core::{Id, spectrum::Spectrum};
+use durer_model::Surface;
 
 use super::{Probe, RayKind, StopReason};
-use crate::PathRay;
+use crate::{Object, PathRay};
 
 /// Totals over any number of samples.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,7 +16,7 @@ pub struct Counters {
     pub node_tests: u64,
     /// Primitives tested.
     pub primitive_tests: u64,
-    /// Largest number of bounces.
+    /// Largest number of bounces of a traced ray.
     pub max_depth: u32,
 }
 
@@ -54,23 +55,28 @@ impl TraversalProbe for Counters {
     }
 }
 
-/// The counters' note on a ray: its kind.
+/// The counters' note on a ray.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RayId(u8);
+pub struct RayId {
+    kind: u8,
+    /// 0 for shadow rays: they are part of a hit, no bounce of their own.
+    depth: u32,
+}
 
 impl Probe for Counters {
     fn ray(&mut self, _: RayId, ray: &PathRay, kind: RayKind) -> RayId {
         self.announced[kind as usize] += 1;
-        // A shadow ray is part of its hit, not a bounce of its own.
-        if kind != RayKind::Shadow {
-            self.max_depth = self.max_depth.max(ray.depth);
-        }
-        RayId(kind as u8)
+        RayId { kind: kind as u8, depth: if kind == RayKind::Shadow { 0 } else { ray.depth } }
+    }
+    fn surface(&mut self, id: RayId, _: Id<Object>, _: &Hit, _: &Surface) {
+        self.max_depth = self.max_depth.max(id.depth);
     }
     fn stop(&mut self, id: RayId, reason: StopReason, _: Spectrum) {
         self.stops[reason as usize] += 1;
         if reason.is_untraced() {
-            self.untraced[id.0 as usize] += 1;
+            self.untraced[id.kind as usize] += 1;
+        } else {
+            self.max_depth = self.max_depth.max(id.depth);
         }
     }
 }
