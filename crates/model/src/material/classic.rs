@@ -4,7 +4,10 @@
 //!
 //! Whitted's `k_s` serves both the highlight and the mirrored ray; here they are two parameters, `specular` and
 //! `reflection`. All coefficients are constants: nothing keeps their sum below 1.
-use durer_core::math::Vector3;
+use durer_core::{
+    math::Vector3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Material, share, share_input};
@@ -18,10 +21,11 @@ use crate::{
 pub struct Classic {
     ambient: Option<ColorInput>,
     diffuse: ColorInput,
-    specular: ColorInput,
+    /// The others are `None` where they are black everywhere.
+    specular: Option<ColorInput>,
     exponent: f32,
-    reflection: ColorInput,
-    transmission: ColorInput,
+    reflection: Option<ColorInput>,
+    transmission: Option<ColorInput>,
     eta: f32,
     fresnel: bool,
 }
@@ -67,14 +71,18 @@ impl Kind for Classic {
         Some(Box::new(Self {
             ambient,
             diffuse: share_input(args, "diffuse"),
-            specular: share_input(args, "specular"),
+            specular: unless_black(share_input(args, "specular")),
             exponent: args.float("exponent"),
-            reflection: share_input(args, "reflection"),
-            transmission: share_input(args, "transmission"),
+            reflection: unless_black(share_input(args, "reflection")),
+            transmission: unless_black(share_input(args, "transmission")),
             eta: args.float("eta"),
             fresnel: args.bool("fresnel"),
         }))
     }
+}
+
+fn unless_black(input: ColorInput) -> Option<ColorInput> {
+    (input != ColorInput::Constant(Color::BLACK)).then_some(input)
 }
 
 impl Material for Classic {
@@ -85,12 +93,12 @@ impl Material for Classic {
         if let Some(ambient) = self.ambient {
             bsdf.add(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
         }
-        let specular = share(cx, self.specular, &at);
+        let optional = |input: Option<ColorInput>| input.map_or(Spectrum::BLACK, |i| share(cx, i, &at));
+        let specular = optional(self.specular);
         if !specular.is_black() {
             bsdf.add(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
         }
-        let reflection = share(cx, self.reflection, &at);
-        let transmission = share(cx, self.transmission, &at);
+        let (reflection, transmission) = (optional(self.reflection), optional(self.transmission));
         if !transmission.is_black() {
             let split = match self.fresnel {
                 true => Split::Fresnel { reflection, transmission },

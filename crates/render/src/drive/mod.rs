@@ -182,20 +182,22 @@ impl<'a> Job<'a> {
         let cx = self.cx();
         let mut done = TileDone { counters: counting.then(Counters::default), ..TileDone::default() };
         let mut out = Contribution::default();
-        let positions = (tile.y0..tile.y1).flat_map(|y| (tile.x0..tile.x1).map(move |x| [x, y]));
-        for (position, pixel) in positions.zip(pixels) {
-            for sample in samples.clone() {
-                let ray = self.eye(position, sample);
-                match &mut done.counters {
-                    Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
-                    None => self.integrator.sample(&cx, ray, &mut out),
-                }
-                done.samples += 1;
-                done.rays += out.rays;
-                match film_value(&cx, &out) {
-                    Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, 1.0),
-                    Some(_) => done.bad(BadSample { pixel: position, sample }),
-                    None => {}
+        let width = (tile.x1 - tile.x0) as usize;
+        for (y, row) in (tile.y0..).zip(pixels.chunks_exact_mut(width)) {
+            for (x, pixel) in (tile.x0..).zip(row) {
+                for sample in samples.clone() {
+                    let ray = self.eye([x, y], sample);
+                    match &mut done.counters {
+                        Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
+                        None => self.integrator.sample(&cx, ray, &mut out),
+                    }
+                    done.samples += 1;
+                    done.rays += out.rays;
+                    match film_value(&cx, &out) {
+                        Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, 1.0),
+                        Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
+                        None => {}
+                    }
                 }
             }
         }
