@@ -1,6 +1,6 @@
 //! Where an instance is, at each moment.
 use durer_core::glam::{DAffine3, DMat3};
-use durer_core::math::{Bounds3, Motion, Ray, Transform, float};
+use durer_core::math::{Bounds3, Motion, Ray, Transform};
 
 use crate::BuildError;
 
@@ -59,10 +59,7 @@ impl Placement {
 
 /// Linear segments needed between two keys.
 fn segments(a: &DAffine3, b: &DAffine3) -> u32 {
-    let (_, r0, _) = a.to_scale_rotation_translation();
-    let (_, r1, _) = b.to_scale_rotation_translation();
-    let half_cosine = r0.dot(r1).abs().min(1.0) as f32;
-    let degrees = (2.0 * float::acos(half_cosine)).to_degrees();
+    let degrees = Motion::turn(a, b).to_degrees() as f32;
     // `as` turns NaN (a singular key, refused later) into 0.
     (degrees / SEGMENT_DEGREES).ceil().clamp(1.0, SEGMENTS_MAX) as u32
 }

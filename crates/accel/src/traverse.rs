@@ -162,6 +162,9 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
 
     fn user_blocks(&mut self, leaf: &LeafBox) -> bool {
         let Ray { t_min, t_max, .. } = self.space.ray;
+        if U::FILTERS {
+            return self.user(leaf, t_max).is_some();
+        }
         let window = leaf.window(self.space);
         let Some(ray) = self.user_ray(leaf.prim, window, t_max) else {
             return false;
@@ -182,7 +185,8 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
     #[inline]
     fn hit(&self, prim: u32, found: PrimitiveHit, window: Window, t_max: f32) -> Option<Hit> {
         let t = self.admit(found.t, window, t_max)?;
-        Some(Hit { t, instance: self.instance, prim, u: found.u, v: found.v })
+        let hit = Hit { t, instance: self.instance, prim, u: found.u, v: found.v };
+        (!U::FILTERS || self.query.user.accepts(&hit)).then_some(hit)
     }
 
     /// Whether `test` finds a hit on any item; brute force looks at all of them.

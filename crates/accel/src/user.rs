@@ -1,19 +1,28 @@
-//! Shapes that are not triangles: the tree holds their boxes and calls back.
+//! The caller's part of a query: shapes that are not triangles, whose boxes the tree holds, and hits that do not count.
 use durer_core::math::Ray;
 
-use crate::PrimitiveHit;
+use crate::{Hit, PrimitiveHit};
 
 /// Intersection routines of the boxes given to `AccelBuilder::user`.
 ///
 /// `ray` is in the instance's object space; its direction keeps the scale of the instance's transform, so `t` means
 /// the same as in the caller's space. `ray.t_max` is finite and shrinks as nearer hits are found.
 pub trait UserGeometry {
+    /// True if hits are put to [`UserGeometry::accepts`].
+    const FILTERS: bool = false;
+
     /// The smallest `t` in `[ray.t_min, ray.t_max]` at which `ray` meets the shape. It must not depend on `ray.t_max`
     /// other than through that bound, or results depend on the order of traversal.
     fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit>;
     /// Whether `intersect` would return anything; override it where that is cheaper.
     fn occludes(&self, instance: u32, prim: u32, ray: &Ray) -> bool {
         self.intersect(instance, prim, ray).is_some()
+    }
+    /// Whether a hit, on a triangle or a shape, counts: false in the holes of a cut-out texture. The ray goes on through
+    /// what it is refused, and meets other things at the same `t`. Asked only if [`UserGeometry::FILTERS`].
+    fn accepts(&self, hit: &Hit) -> bool {
+        let _ = hit;
+        true
     }
 }
 

@@ -14,13 +14,22 @@ use crate::exit::WrongUsage;
 pub(crate) struct Destination {
     pub(crate) path: PathBuf,
     pub(crate) format: PictureFormat,
+    /// The path without detours, to tell files apart.
+    place: PathBuf,
 }
 
 /// The destinations asked for, or `SCENE-STEM.png` in the current folder.
 pub(crate) fn destinations(asked: &[PathBuf], scene: &str) -> anyhow::Result<Vec<Destination>> {
     let default = [default_path(scene)];
     let paths = if asked.is_empty() { &default } else { asked };
-    paths.iter().map(|path| destination(path)).collect()
+    let destinations: Vec<_> = paths.iter().map(|path| destination(path)).collect::<anyhow::Result<_>>()?;
+    for (index, destination) in destinations.iter().enumerate() {
+        if destinations[..index].iter().any(|d| d.place == destination.place) {
+            let message = format!("{}: is named twice as an output", destination.path.display());
+            return Err(WrongUsage(message).into());
+        }
+    }
+    Ok(destinations)
 }
 
 fn default_path(scene: &str) -> PathBuf {
@@ -32,7 +41,8 @@ fn default_path(scene: &str) -> PathBuf {
 fn destination(path: &Path) -> anyhow::Result<Destination> {
     let writer = writer_for(path).map_err(|e| WrongUsage(e.to_string()))?;
     check_writable(path)?;
-    Ok(Destination { path: path.to_owned(), format: writer.format })
+    let place = std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).components().collect();
+    Ok(Destination { path: path.to_owned(), format: writer.format, place })
 }
 
 /// Complains unless a file of this name can be made. Pictures are written under another name first and renamed, so the

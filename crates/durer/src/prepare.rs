@@ -1,5 +1,5 @@
 //! A description and wishes to something that renders.
-use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_core::sampling::SamplerKind;
 use durer_io::import::Imported;
 use durer_render::{
     Scene,
@@ -17,6 +17,8 @@ const DEFAULT_SIZE: (u32, u32) = (1280, 720);
 const DEFAULT_SAMPLES: u32 = 64;
 /// Most pixels along an edge: pictures beyond are typing errors.
 const LARGEST_EDGE: u32 = 1 << 16;
+/// Most pixels of a picture: its sums take 4 GiB.
+const MOST_PIXELS: u64 = 1 << 28;
 
 /// A compiled scene with light transport and settings.
 pub struct Prepared {
@@ -43,17 +45,19 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     if diagnostics.has_errors() {
         return None;
     }
+    if desc.shapes.is_empty() {
+        diagnostics.warning(Location::None, "the scene has no shapes: only its sky can be seen");
+    }
     let integrator_node = integrator_node(desc, options, diagnostics);
     let integrator = compile::integrator(&integrator_node, diagnostics);
     let size = picture_size(desc, options, diagnostics);
-    let shutter = options.shutter.unwrap_or(Interval::point(0.0));
-    let shutter = Interval::new(options.time + shutter.min, options.time + shutter.max);
     let (width, height) = size.unwrap_or(DEFAULT_SIZE);
     let compile_options = CompileOptions {
         engine: options.engine,
         missing: options.missing,
         camera: options.camera.clone(),
-        shutter,
+        time: options.time,
+        shutter: options.shutter,
         ..CompileOptions::new(width, height)
     };
     let scene = compile::compile(desc, &*assets, &compile_options, diagnostics);
@@ -64,7 +68,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         sampler: sampler(desc),
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),
-        shutter,
+        shutter: scene.view.shutter,
         crop: options.crop,
     };
     Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
@@ -130,6 +134,12 @@ fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnosti
         diagnostics
             .error(Location::None, message)
             .hint(format!("each edge may have 1 to {LARGEST_EDGE} pixels"));
+        return None;
+    }
+    let pixels = u64::from(size.0) * u64::from(size.1);
+    if pixels > MOST_PIXELS {
+        let message = format!("a picture of {} x {} has {pixels} pixels", size.0, size.1);
+        diagnostics.error(Location::None, message).hint(format!("at most {MOST_PIXELS} fit in memory"));
         return None;
     }
     Some(size)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
-    math::{Point2, Point3, Ray, Transform, Vector3},
+    math::{Interval, Point2, Point3, Ray, Transform, Vector3},
     sampling::Sampler,
     spectrum::{Basis, Spectrum},
 };
@@ -78,6 +78,8 @@ pub struct View {
     pub width: u32,
     /// Rows.
     pub height: u32,
+    /// When the shutter is open, in seconds.
+    pub shutter: Interval,
 }
 
 impl View {
@@ -138,25 +140,38 @@ impl UserGeometry for Scene {
     }
 }
 
+/// A scene some of whose surfaces are cut out by textures.
+struct Holed<'a> {
+    cx: &'a SampleCx<'a>,
+    /// The ray in render space.
+    ray: &'a Ray,
+}
+
+impl UserGeometry for Holed<'_> {
+    const FILTERS: bool = true;
+
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
+        self.cx.scene.intersect(instance, prim, ray)
+    }
+    fn accepts(&self, hit: &Hit) -> bool {
+        !self.cx.scene.is_hole(self.cx, self.ray, hit)
+    }
+}
+
 impl Scene {
     /// The nearest hit that is no hole.
     pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
-        let mut ray = *ray;
-        loop {
-            let hit = self.accel.closest(&ray, self, probe, id)?;
-            if !self.has_holes || !self.is_hole(cx, &ray, &hit) {
-                return Some(hit);
-            }
-            ray.t_min = hit.t.next_up();
+        match self.has_holes {
+            true => self.accel.closest(ray, &Holed { cx, ray }, probe, id),
+            false => self.accel.closest(ray, self, probe, id),
         }
     }
 
     /// True if anything that is no hole lies on the ray.
     pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
-        if self.has_holes {
-            self.closest(cx, ray, probe, id).is_some()
-        } else {
-            self.accel.any(ray, self, probe, id)
+        match self.has_holes {
+            true => self.accel.any(ray, &Holed { cx, ray }, probe, id),
+            false => self.accel.any(ray, self, probe, id),
         }
     }
 

@@ -1,9 +1,9 @@
 //! Transforms that change over time: keys in f64, interpolated between.
-use glam::DAffine3;
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde::Serialize;
 
-/// A placement in space, still or keyed. Between keys translation and scale move linearly and rotation on the shortest
-/// arc (Shoemake 1985); before the first and after the last key the transform is held.
+/// A placement in space, still or keyed. Between keys translation and stretch (scale and shear) move linearly and
+/// rotation on the shortest arc (Shoemake 1985); before the first and after the last key the transform is held.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Motion {
     /// `(seconds, transform)`, never empty, times strictly rising.
@@ -48,13 +48,54 @@ impl Motion {
         let (t0, a) = &self.keys[after - 1];
         let Some((t1, b)) = self.keys.get(after) else { return *a };
         let u = (time - t0) / (t1 - t0);
-        let (s0, r0, p0) = a.to_scale_rotation_translation();
-        let (s1, r1, p1) = b.to_scale_rotation_translation();
-        DAffine3::from_scale_rotation_translation(s0.lerp(s1, u), r0.slerp(r1, u), p0.lerp(p1, u))
+        let (from, to) = (Parts::of(a), Parts::of(b));
+        let stretch = from.stretch * (1.0 - u) + to.stretch * u;
+        DAffine3 {
+            matrix3: DMat3::from_quat(from.rotation.slerp(to.rotation, u)) * stretch,
+            translation: from.translation.lerp(to.translation, u),
+        }
+    }
+    /// The angle of the turn between two placements, in radians.
+    pub fn turn(a: &DAffine3, b: &DAffine3) -> f64 {
+        let (a, b) = (Parts::of(a).rotation, Parts::of(b).rotation);
+        // 2 asin(|a - b| / 2) and not acos(a.b), which cannot tell small angles from none.
+        let apart = (a - b).length().min((a + b).length());
+        4.0 * libm::asin((apart * 0.5).min(1.0))
     }
     /// `parent * self`, key by key.
     pub fn within(&self, parent: &DAffine3) -> Self {
         Self { keys: self.keys.iter().map(|(t, m)| (*t, *parent * *m)).collect() }
+    }
+}
+
+/// `translation * rotation * stretch`, the polar decomposition (Shoemake and Duff 1992, "Matrix Animation and Polar
+/// Decomposition"). A mirroring is part of the stretch.
+struct Parts {
+    translation: DVec3,
+    rotation: DQuat,
+    stretch: DMat3,
+}
+
+impl Parts {
+    fn of(m: &DAffine3) -> Self {
+        let linear = m.matrix3;
+        let mut r = linear;
+        // Newton's iteration to the nearest orthogonal matrix: doubles the correct digits each time. A singular matrix
+        // has none; the result is then not finite, and refused where placements are checked.
+        for _ in 0..100 {
+            let next = (r + r.inverse().transpose()) * 0.5;
+            let done = next.abs_diff_eq(r, 1e-14);
+            r = next;
+            if done {
+                break;
+            }
+        }
+        let r = if r.determinant() < 0.0 { r * -1.0 } else { r };
+        Self {
+            translation: m.translation,
+            rotation: DQuat::from_mat3(&r).normalize(),
+            stretch: r.transpose() * linear,
+        }
     }
 }
 
@@ -72,6 +113,28 @@ mod tests {
         assert_eq!(m.at(0.0), turn(0.0));
         assert_eq!(m.at(9.0), turn(1.0));
         assert!(!m.is_still() && Motion::still(turn(0.3)).is_still());
+    }
+
+    #[test]
+    fn shear_and_mirroring_survive_between_equal_keys() {
+        let sheared = DAffine3::from_scale(DVec3::new(2.0, 1.0, 1.0)) * DAffine3::from_rotation_z(0.8);
+        for m in [sheared, sheared * DAffine3::from_scale(DVec3::new(1.0, -3.0, 1.0))] {
+            let moved = DAffine3::from_translation(DVec3::X) * m;
+            let motion = Motion::keyed(vec![(0.0, m), (1.0, moved)]).expect("valid keys");
+            for u in [1e-9, 0.25, 0.5, 1.0 - 1e-9] {
+                let expected = DAffine3::from_translation(DVec3::X * u) * m;
+                assert!(motion.at(u).abs_diff_eq(expected, 1e-12), "{u}: {} {expected}", motion.at(u));
+            }
+        }
+    }
+
+    #[test]
+    fn the_turn_between_placements_is_that_of_their_rotations() {
+        let stretched = DAffine3::from_scale(DVec3::new(1.0, 2.0, 3.0));
+        for angle in [0.0, 1e-6, 0.7, 3.0] {
+            let turned = DAffine3::from_rotation_y(angle) * stretched;
+            assert!((Motion::turn(&stretched, &turned) - angle).abs() < 1e-9, "{angle}");
+        }
     }
 
     #[test]

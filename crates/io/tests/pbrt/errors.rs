@@ -257,7 +257,6 @@ fn what_is_not_supported_warns_once() {
             "3:8 warning: the option \"seed\" is not supported yet; it is ignored | \"integer seed\" 3",
             "4:12 warning: the colour space \"rec2020\" is not supported yet; colours are read as sRGB | \"rec2020\"",
             "5:17 warning: media are not supported yet; they are ignored | \"fog\"",
-            "9:17 warning: AreaLightSource is not supported yet: its shapes give no light | \"diffuse\"",
             "12:1 warning: pbrt-v4 has no WorldEnd: it is ignored | WorldEnd",
         ],
     );

@@ -3,6 +3,7 @@ use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
     math::{Bounds3, Motion, Point3, Vector3},
 };
+use durer_model::light;
 use durer_scene::{CameraDesc, Diagnostics, LightDesc, Location, Node, Params, SceneDesc};
 
 use super::CompileOptions;
@@ -54,10 +55,16 @@ pub(super) fn lights(
     world_from_camera: &DAffine3,
     diagnostics: &mut Diagnostics,
 ) -> Vec<LightDesc> {
-    if !desc.lights.is_empty() {
+    let supported = |l: &&LightDesc| !light::NOT_YET.contains(&l.node.kind.as_str());
+    if desc.lights.iter().any(|l| supported(&l)) {
         return desc.lights.clone();
     }
-    diagnostics.note(Location::None, "the scene has no light: a neutral studio light was added");
+    if desc.lights.is_empty() {
+        diagnostics.note(Location::None, "the scene has no light: a neutral studio light was added");
+    } else {
+        let message = "none of the scene's lights is supported yet: a neutral studio light was added";
+        diagnostics.warning(Location::None, message);
+    }
     let sky = Params::new()
         .rgb("zenith", [0.75, 0.78, 0.82])
         .rgb("horizon", [0.95, 0.95, 0.95])
@@ -69,12 +76,15 @@ pub(super) fn lights(
         .rgb("L", [1.9, 1.85, 1.75])
         .with("from", durer_scene::ValueType::Point3, point(from))
         .with("to", durer_scene::ValueType::Point3, point([0.0; 3]));
-    let light = |name: &str, node| LightDesc {
+    let made = |name: &str, node| LightDesc {
         name: name.to_owned(),
         node,
         world_from_light: Motion::still(DAffine3::IDENTITY),
     };
-    vec![light("studio sky", Node::new("gradientsky", sky)), light("studio key", Node::new("distant", key))]
+    let mut lights = desc.lights.clone();
+    lights.push(made("studio sky", Node::new("gradientsky", sky)));
+    lights.push(made("studio key", Node::new("distant", key)));
+    lights
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use durer_core::{
     glam::{DAffine3, DVec3},
     math::{Interval, Transform},
 };
-use durer_scene::{Assets, CameraDesc, Diagnostics, Location, Missing, Node, SceneDesc};
+use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{Scene, View, integrator::Integrator};
 
@@ -32,8 +32,10 @@ pub struct CompileOptions {
     pub height: u32,
     /// Camera, by name or index; the first if `None`.
     pub camera: Option<String>,
-    /// The moment the camera is placed for, and the span in which things move.
-    pub shutter: Interval,
+    /// The moment of the picture, in seconds.
+    pub time: f32,
+    /// Shutter opening and closing, in seconds after `time`; the camera's if `None`.
+    pub shutter: Option<Interval>,
 }
 
 impl CompileOptions {
@@ -45,7 +47,8 @@ impl CompileOptions {
             width,
             height,
             camera: None,
-            shutter: Interval::point(0.0),
+            time: 0.0,
+            shutter: None,
         }
     }
 }
@@ -64,11 +67,18 @@ pub fn compile(
     let bounds = geometry::world_bounds(desc, &shapes);
     let camera = chosen_camera(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
-    let world_from_camera = camera.world_from_camera.at(options.shutter.min.into());
+    let shutter = shutter(desc, &camera, options);
+    let opening = f64::from(shutter.min);
+    if shutter.min != shutter.max && !camera.world_from_camera.is_still() {
+        let message =
+            "moving cameras are not supported yet: it stands still where it is when the shutter opens";
+        nodes.diagnostics.warning(camera.node.at.clone(), message);
+    }
+    let world_from_camera = camera.world_from_camera.at(opening);
     let origin = world_from_camera.translation;
-    let view = view(&mut nodes, &camera, &world_from_camera, options);
+    let view = view(&mut nodes, &camera, &world_from_camera, options, shutter);
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
-    let lights = nodes.lights(&lights, -origin);
+    let lights = nodes.lights(&lights, -origin, shutter);
 
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
@@ -125,6 +135,7 @@ fn view(
     desc: &CameraDesc,
     world_from_camera: &DAffine3,
     options: &CompileOptions,
+    shutter: Interval,
 ) -> Option<View> {
     let mut camera = nodes.camera(&desc.node)?;
     camera.fit(options.width, options.height);
@@ -140,7 +151,22 @@ fn view(
         world_from_render: world_from_camera.translation,
         width: options.width,
         height: options.height,
+        shutter,
     })
+}
+
+/// When the shutter is open: as the options say, else as the camera says; a moment if nothing moves.
+fn shutter(desc: &SceneDesc, camera: &CameraDesc, options: &CompileOptions) -> Interval {
+    let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still());
+    let of_camera = |name: &str, default: f32| match camera.node.params.get(name).map(|p| &p.data) {
+        Some(Data::Floats(v)) => v.first().copied().unwrap_or(default),
+        _ => default,
+    };
+    let asked = options.shutter.unwrap_or_else(|| match moves {
+        true => Interval::new(of_camera("shutteropen", 0.0), of_camera("shutterclose", 1.0)),
+        false => Interval::point(0.0),
+    });
+    Interval::new(options.time + asked.min, options.time + asked.max)
 }
 
 /// The integrator of a description that asks for none.

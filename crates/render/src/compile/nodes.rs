@@ -1,18 +1,18 @@
 //! Nodes to things: the registries of `durer-model` and of the integrators, applied to a description.
 use durer_core::{
     glam::{DAffine3, DVec3},
-    math::Transform,
+    math::{Interval, Transform},
 };
 use durer_model::{
     camera::{CAMERAS, Camera},
     light::{self, LIGHTS, Light},
     material::{self, MATERIALS, Material},
-    shape::{Geometry, SHAPES},
+    shape::{self, Geometry, SHAPES},
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, LightDesc, Missing, Node, Params, SceneDesc, ShapeSource, TextureDesc,
-    find,
+    Args, Assets, Diagnostics, Entry, LightDesc, Location, Missing, Node, Params, SceneDesc, ShapeDesc,
+    ShapeSource, TextureDesc, find,
 };
 
 use crate::integrator::{INTEGRATORS, Integrator, NOT_YET};
@@ -61,9 +61,18 @@ impl Builder<'_> {
 
     /// The geometry of each shape; `None` where it is a mesh of the description, or could not be built.
     pub(super) fn shapes(&mut self) -> Vec<Option<Geometry>> {
-        let shapes = self.desc.shapes.iter().map(|shape| match &shape.source {
-            ShapeSource::Node(node) => self.build(SHAPES, "shape", node, &self.desc.textures),
-            ShapeSource::Mesh(_) => None,
+        let shapes = &self.desc.shapes;
+        let left_out: Vec<&Node> = shapes.iter().filter_map(not_yet).collect();
+        warn_not_yet("shape", "is left out", &left_out, self.diagnostics);
+        if !shapes.is_empty() && left_out.len() == shapes.len() {
+            let message = "nothing is left to draw: none of the scene's shapes is supported yet";
+            self.diagnostics.error(Location::None, message);
+        }
+        let shapes = shapes.iter().map(|shape| match &shape.source {
+            ShapeSource::Node(node) if not_yet(shape).is_none() => {
+                self.build(SHAPES, "shape", node, &self.desc.textures)
+            }
+            ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
         });
         shapes.collect()
     }
@@ -72,19 +81,28 @@ impl Builder<'_> {
         self.build(CAMERAS, "camera", node, &self.desc.textures)
     }
 
-    /// The lights with their names, placed in render space, which is the world moved by `to_render`.
-    pub(super) fn lights(&mut self, lights: &[LightDesc], to_render: DVec3) -> Vec<(Box<dyn Light>, String)> {
+    /// The lights with their names, placed in render space, which is the world moved by `to_render`, as they are when
+    /// the shutter opens.
+    pub(super) fn lights(
+        &mut self,
+        lights: &[LightDesc],
+        to_render: DVec3,
+        shutter: Interval,
+    ) -> Vec<(Box<dyn Light>, String)> {
+        let is_not_yet = |desc: &&LightDesc| light::NOT_YET.contains(&desc.node.kind.as_str());
+        let left_out: Vec<&Node> = lights.iter().filter(is_not_yet).map(|desc| &desc.node).collect();
+        warn_not_yet("light", "gives no light", &left_out, self.diagnostics);
         let mut built = Vec::new();
-        for desc in lights {
-            if light::NOT_YET.contains(&desc.node.kind.as_str()) {
-                let message = format!("light \"{}\" is not supported yet: it gives no light", desc.node.kind);
-                self.diagnostics.warning(desc.node.at.clone(), message);
-                continue;
-            }
+        for desc in lights.iter().filter(|desc| !is_not_yet(desc)) {
             let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
                 continue;
             };
-            let world_from_light = desc.world_from_light.at(0.0);
+            if shutter.min != shutter.max && !desc.world_from_light.is_still() {
+                let message =
+                    "moving lights are not supported yet: it stands still where it is when the shutter opens";
+                self.diagnostics.warning(desc.node.at.clone(), message);
+            }
+            let world_from_light = desc.world_from_light.at(shutter.min.into());
             let transform = Transform::from_f64(&(DAffine3::from_translation(to_render) * world_from_light));
             if !transform.is_invertible() {
                 self.diagnostics.error(desc.node.at.clone(), "the light's transform cannot be inverted");
@@ -98,6 +116,30 @@ impl Builder<'_> {
             built.push((light, name));
         }
         built
+    }
+}
+
+/// The node of a shape that pbrt knows and we do not.
+fn not_yet(shape: &ShapeDesc) -> Option<&Node> {
+    match &shape.source {
+        ShapeSource::Node(node) if shape::NOT_YET.contains(&node.kind.as_str()) => Some(node),
+        ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
+    }
+}
+
+/// One warning for each kind among `nodes`, at its first use.
+fn warn_not_yet(family: &str, what: &str, nodes: &[&Node], diagnostics: &mut Diagnostics) {
+    let mut kinds: Vec<(&Node, usize)> = Vec::new();
+    for node in nodes {
+        match kinds.iter_mut().find(|(first, _)| first.kind == node.kind) {
+            Some((_, uses)) => *uses += 1,
+            None => kinds.push((node, 1)),
+        }
+    }
+    for (first, uses) in kinds {
+        let times = if uses > 1 { format!(" ({uses} of them)") } else { String::new() };
+        let message = format!("{family} \"{}\" is not supported yet and {what}{times}", first.kind);
+        diagnostics.warning(first.at.clone(), message);
     }
 }
 

@@ -74,6 +74,25 @@ pub enum Gather {
     Counters,
 }
 
+impl Gather {
+    fn counters(self) -> Option<Counters> {
+        (self == Self::Counters).then(Counters::default)
+    }
+}
+
+/// The samples taken before the picture is looked at again.
+struct Pass<'a> {
+    samples: std::ops::Range<u32>,
+    gather: Gather,
+    cancel: &'a AtomicBool,
+}
+
+impl Pass<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+}
+
 /// A scene, an integrator and the settings of one picture.
 pub struct Job<'a> {
     /// The scene.
@@ -113,14 +132,15 @@ impl<'a> Job<'a> {
             film: Film::new(view.width, view.height),
             samples: 0,
             rays: 0,
-            counters: (gather == Gather::Counters).then(Counters::default),
+            counters: gather.counters(),
             bad_samples: 0,
             first_bad: None,
             cancelled: false,
         };
         let tiles = window.squares(TILE);
         for (first, last) in pass::passes(self.settings.samples) {
-            self.pass(&tiles, first..last, &mut rendered, progress, cancel);
+            let pass = Pass { samples: first..last, gather, cancel };
+            self.pass(&pass, &tiles, &mut rendered, progress);
             if cancel.load(Ordering::Relaxed) {
                 rendered.cancelled = true;
                 break;
@@ -133,29 +153,18 @@ impl<'a> Job<'a> {
     }
 
     /// Takes the samples of a range everywhere. The tiles of a pass are disjoint: their order does not matter.
-    fn pass(
-        &self,
-        tiles: &[Tile],
-        samples: std::ops::Range<u32>,
-        rendered: &mut Rendered,
-        progress: &dyn Progress,
-        cancel: &AtomicBool,
-    ) {
+    fn pass(&self, pass: &Pass<'_>, tiles: &[Tile], rendered: &mut Rendered, progress: &dyn Progress) {
         let next = AtomicUsize::new(0);
         let shared = Mutex::new(rendered);
         let work = || {
             let mut pixels = Vec::new();
             loop {
                 let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(&tile) = tiles.get(index).filter(|_| !cancel.load(Ordering::Relaxed)) else {
+                let Some(&tile) = tiles.get(index).filter(|_| !pass.is_cancelled()) else {
                     return;
                 };
-                let counting = {
-                    let shared = lock(&shared);
-                    shared.film.read(tile, &mut pixels);
-                    shared.counters.is_some()
-                };
-                let done = self.tile(tile, samples.clone(), counting, &mut pixels);
+                lock(&shared).film.read(tile, &mut pixels);
+                let done = self.tile(pass, tile, &mut pixels);
                 let mut shared = lock(&shared);
                 shared.film.write(tile, &pixels);
                 shared.take(&done);
@@ -172,20 +181,17 @@ impl<'a> Job<'a> {
         });
     }
 
-    fn tile(
-        &self,
-        tile: Tile,
-        samples: std::ops::Range<u32>,
-        counting: bool,
-        pixels: &mut [Pixel],
-    ) -> TileDone {
+    fn tile(&self, pass: &Pass<'_>, tile: Tile, pixels: &mut [Pixel]) -> TileDone {
         let cx = self.cx();
-        let mut done = TileDone { counters: counting.then(Counters::default), ..TileDone::default() };
+        let mut done = TileDone { counters: pass.gather.counters(), ..TileDone::default() };
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
         for (y, row) in (tile.y0..).zip(pixels.chunks_exact_mut(width)) {
+            if pass.is_cancelled() {
+                break;
+            }
             for (x, pixel) in (tile.x0..).zip(row) {
-                for sample in samples.clone() {
+                for sample in pass.samples.clone() {
                     let ray = self.eye([x, y], sample);
                     match &mut done.counters {
                         Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),

@@ -111,9 +111,10 @@ impl Parser<'_> {
 
     /// `AreaLightSource`
     pub(super) fn area_light(&mut self, head: Token) -> Result<(), Reported> {
-        let (kind, _) = self.kind_and_params(head, "a kind of area light")?;
-        let message = "AreaLightSource is not supported yet: its shapes give no light";
-        self.warn_once("AreaLightSource", kind.at, message);
+        let (kind, params) = self.kind_and_params(head, "a kind of area light")?;
+        let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
+        let world_from_light = self.state.ctm.motion(self.world.times);
+        self.world.desc.lights.push(LightDesc { name: String::new(), node, world_from_light });
         Ok(())
     }
 
