@@ -48,6 +48,7 @@ impl Transform {
         DAffine3 { matrix3: DMat3::from_cols(c(0), c(1), c(2)), translation: c(3) }
     }
     /// The inverse map.
+    #[inline]
     pub fn inverse(&self) -> Self {
         Self { m: self.inverse, inverse: self.m, only_moves: self.only_moves }
     }
@@ -75,6 +76,7 @@ impl Transform {
         Point3::new(x, y, z)
     }
     /// Maps a position known to within `error` per coordinate; also returns the error of the result.
+    #[inline]
     pub fn point_with_error(&self, p: Point3, error: Vector3) -> (Point3, Vector3) {
         if self.only_moves {
             let q = self.point(p);
@@ -100,6 +102,7 @@ impl Transform {
         Vector3::new(x, y, z)
     }
     /// Maps a normal by the inverse transpose; the length is not kept.
+    #[inline]
     pub fn normal(&self, n: Normal3) -> Normal3 {
         if self.only_moves {
             return n;
@@ -109,6 +112,7 @@ impl Transform {
         Normal3::new(c(0), c(1), c(2))
     }
     /// Absolute values of the linear part times `v`: how far errors of `v` can reach.
+    #[inline]
     pub fn reach(&self, v: Vector3) -> Vector3 {
         if self.only_moves {
             return v;
@@ -116,6 +120,7 @@ impl Transform {
         Vector3::from(self.m.map(|r| r[0].abs() * v.x + r[1].abs() * v.y + r[2].abs() * v.z))
     }
     /// Maps a ray; the direction is not normalised, so `t` means the same on both sides.
+    #[inline]
     pub fn ray(&self, r: &Ray) -> Ray {
         Ray { o: self.point(r.o), d: self.vector(r.d), ..*r }
     }

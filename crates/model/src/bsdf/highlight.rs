@@ -32,6 +32,10 @@ impl Highlight {
             return Spectrum::BLACK;
         }
         let cos_h = (h.z / length).abs().min(1.0);
+        // PERF: ln c <= c - 1, so beyond this the power is below the smallest float (bench render).
+        if self.exponent * (cos_h - 1.0) < -104.0 {
+            return Spectrum::BLACK;
+        }
         self.specular * (pow(cos_h, self.exponent) / (PI * wi.z.abs()))
     }
 }

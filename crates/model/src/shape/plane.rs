@@ -126,8 +126,9 @@ impl Shape for Plane {
         Bounds3::UNBOUNDED
     }
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
-        let (t, _) = self.carrier.hit(ray)?;
-        Some(ShapeHit { t, u: 0.0, v: 0.0 })
+        let (t, error) = self.carrier.meet(ray)?;
+        let t = accept(ray, t, error)?;
+        ray.at(t).is_finite().then_some(ShapeHit { t, u: 0.0, v: 0.0 })
     }
     fn surface(&self, ray: &Ray, hit: &ShapeHit) -> Surface {
         let p = self.carrier.point_near(ray, hit.t);
