@@ -67,9 +67,12 @@ AttributeBegin
 AttributeEnd
 "#;
 
-/// The zoo, and a real glTF file where there are some.
-fn scenes(test: &str) -> Vec<(String, fn(&str) -> Imported)> {
-    let mut scenes: Vec<(String, fn(&str) -> Imported)> = vec![(ZOO.to_owned(), import)];
+/// What to open, and how.
+type Exhibit = (String, fn(&str) -> Imported);
+
+/// The zoo, and real glTF files where there are some.
+fn scenes(test: &str) -> Vec<Exhibit> {
+    let mut scenes: Vec<Exhibit> = vec![(ZOO.to_owned(), import)];
     if let Some(folder) = shared(test) {
         for file in ["AlphaBlendModeTest.glb", "NegativeScaleTest.glb", "SimpleInstancing.glb"] {
             let path = folder.join("assets/gltf").join(file);
