@@ -24,17 +24,6 @@ impl Frame {
             z: n.into(),
         }
     }
-    /// The frame around unit `n` whose x axis lies nearest to `tangent`; any frame if they are parallel.
-    pub fn from_z_and_tangent(n: Normal3, tangent: Vector3) -> Self {
-        let z = Vector3::from(n);
-        let x = tangent - z * z.dot(tangent);
-        let length = x.length();
-        if length.is_nan() || length <= 1e-6 * tangent.length() {
-            return Self::from_z(n);
-        }
-        let x = x / length;
-        Self { x, y: z.cross(x), z }
-    }
     /// World direction to local.
     pub fn to_local(&self, v: Vector3) -> Vector3 {
         Vector3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
@@ -56,12 +45,11 @@ mod tests {
             let z = (i as f32 / 999.0) * 2.0 - 1.0;
             let r = (1.0 - z * z).max(0.0).sqrt();
             let n = Normal3::new(r * crate::math::float::cos(a), r * crate::math::float::sin(a), z);
-            for f in [Frame::from_z(n), Frame::from_z_and_tangent(n, Vector3::new(0.3, -0.8, 0.5))] {
-                assert!((f.x.cross(f.y) - f.z).length() < 1e-5);
-                assert!(f.x.dot(f.y).abs() < 1e-5 && f.x.dot(f.z).abs() < 1e-5);
-                let v = Vector3::new(0.2, 0.5, -0.9);
-                assert!((f.to_world(f.to_local(v)) - v).length() < 1e-5);
-            }
+            let f = Frame::from_z(n);
+            assert!((f.x.cross(f.y) - f.z).length() < 1e-5);
+            assert!(f.x.dot(f.y).abs() < 1e-5 && f.x.dot(f.z).abs() < 1e-5);
+            let v = Vector3::new(0.2, 0.5, -0.9);
+            assert!((f.to_world(f.to_local(v)) - v).length() < 1e-5);
         }
     }
 }

@@ -33,10 +33,6 @@ impl Color {
         let [r, g, b] = self.rgb;
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
-    /// Linear interpolation to `o`.
-    pub fn lerp(self, o: Self, t: f32) -> Self {
-        self * (1.0 - t) + o * t
-    }
 }
 
 impl Add for Color {

@@ -18,7 +18,7 @@ use durer_core::{
     sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
-use durer_scene::{Args, Entry};
+use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
     ambient::Ambient, distant::Distant, gradient_sky::GradientSky, infinite::Infinite, point::Point,
@@ -74,6 +74,22 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
 
 /// Words of pbrt-v4 that are known but not built yet; `diffuse` is its area light.
 pub const NOT_YET: &[&str] = &["diffuse", "goniometric", "projection"];
+
+/// Factor on the intensity of lights without extent.
+const INTENSITY_SCALE: ParamSpec =
+    ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY);
+/// Power of lights without extent.
+const POWER: ParamSpec = ParamSpec::new(
+    "power",
+    ParamType::Float,
+    ParamDefault::Unset,
+    "Total power; replaces the magnitude of I, scale still applies.",
+)
+.unit("W")
+.range(0.0, f32::INFINITY);
+/// Position of lights without extent.
+const POSITION: ParamSpec =
+    ParamSpec::new("from", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "Position.").unit("m");
 
 /// The colour parameter `name` times `scale`. If `total` is given, it is the luminance that the quantity reached by the
 /// factor `reach` shall have before `scale` (pbrt-v4's `power` and `illuminance`): it replaces the colour's magnitude.

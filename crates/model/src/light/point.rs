@@ -6,9 +6,9 @@ use durer_core::{
     sampling::Sampler,
     spectrum::{Basis, Color},
 };
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Light, LightSample, falloff::Falloff, scaled};
+use super::{INTENSITY_SCALE, Light, LightSample, POSITION, POWER, falloff::Falloff, scaled};
 
 /// A point light.
 #[derive(Debug)]
@@ -26,16 +26,9 @@ impl Kind for Point {
         doc: "Shines equally in all directions from one point.",
         params: &[
             ParamSpec::color("I", [1.0; 3], "Intensity.").unit("W/sr").range(0.0, f32::INFINITY),
-            ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "power",
-                ParamType::Float,
-                ParamDefault::Unset,
-                "Total power; replaces the magnitude of I, scale still applies.",
-            )
-            .unit("W")
-            .range(0.0, f32::INFINITY),
-            ParamSpec::new("from", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "Position.").unit("m"),
+            INTENSITY_SCALE,
+            POWER,
+            POSITION,
             Falloff::SPEC,
         ],
     };

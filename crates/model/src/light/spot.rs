@@ -12,7 +12,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightSample, axis, falloff::Falloff, scaled};
+use super::{INTENSITY_SCALE, Light, LightSample, POSITION, POWER, axis, falloff::Falloff, scaled};
 
 /// A spot light.
 #[derive(Debug)]
@@ -34,16 +34,9 @@ impl Kind for Spot {
         doc: "A cone of light from one point.",
         params: &[
             ParamSpec::color("I", [1.0; 3], "Intensity on the axis.").unit("W/sr").range(0.0, f32::INFINITY),
-            ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "power",
-                ParamType::Float,
-                ParamDefault::Unset,
-                "Total power; replaces the magnitude of I, scale still applies.",
-            )
-            .unit("W")
-            .range(0.0, f32::INFINITY),
-            ParamSpec::new("from", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "Position.").unit("m"),
+            INTENSITY_SCALE,
+            POWER,
+            POSITION,
             ParamSpec::new(
                 "to",
                 ParamType::Point3,
