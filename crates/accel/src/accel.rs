@@ -3,7 +3,7 @@ use durer_core::math::{Bounds3, Point3, Ray, Transform};
 
 use crate::{
     BuildStats, Engine, GeometryId, Hit, TraversalProbe, UserGeometry,
-    geometry::{Geometry, Items},
+    geometry::Geometry,
     placement::Pose,
     space::Space,
     traverse::{Query, TopLevel},
@@ -118,10 +118,9 @@ impl Accel {
         };
         let mut below = 0;
         for geometry in &self.geometries {
-            match &geometry.items {
-                Items::Triangles { leaves, .. } => stats.triangles += leaves.len() as u64,
-                Items::Boxes(leaves) => stats.user_primitives += leaves.len() as u64,
-            }
+            let (triangles, boxes) = geometry.counts();
+            stats.triangles += triangles;
+            stats.user_primitives += boxes;
             stats.nodes += geometry.tree.len() as u64;
             stats.bytes += geometry.bytes() as u64;
             below = below.max(geometry.tree.depth);
@@ -162,15 +161,11 @@ impl Accel {
         self.instances[instance as usize].pose.at(time).unwrap_or(Transform::IDENTITY)
     }
 
-    /// The vertices of a triangle in the instance's object space; `None` if the geometry is not a mesh.
+    /// The vertices of a triangle at `time`, in the instance's object space; `None` if the geometry is not a mesh.
     ///
     /// # Panics
     /// If there is no such instance or triangle.
-    pub fn triangle(&self, instance: u32, prim: u32) -> Option<[Point3; 3]> {
-        let geometry = &self.geometries[self.instance_geometry(instance).index()];
-        match &geometry.items {
-            Items::Triangles { leaves, place } => Some(leaves[place[prim as usize] as usize].vertices),
-            Items::Boxes(_) => None,
-        }
+    pub fn triangle(&self, instance: u32, prim: u32, time: f32) -> Option<[Point3; 3]> {
+        self.geometries[self.instance_geometry(instance).index()].vertices(prim, time)
     }
 }

@@ -52,6 +52,14 @@ pub enum BuildError {
         /// Which motion key.
         key: usize,
     },
+    /// The vertex keys of a moving mesh are not alike or their times do not rise.
+    #[error(
+        "vertex key {key} has another number of vertices than the one before it, or is not later; give finite, strictly rising times"
+    )]
+    VertexKeyInvalid {
+        /// Which key, counted from 0.
+        key: usize,
+    },
     /// The geometry was made by another builder.
     #[error("geometry {geometry} does not exist in this builder; add the geometry before placing it")]
     GeometryUnknown {

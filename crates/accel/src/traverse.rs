@@ -191,7 +191,11 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
 
     /// Whether `test` finds a hit on any item; brute force looks at all of them.
     #[inline]
-    fn some<T>(&mut self, items: &[T], mut test: impl FnMut(&mut Self, &T) -> bool) -> bool {
+    fn some<T>(
+        &mut self,
+        items: impl IntoIterator<Item = T>,
+        mut test: impl FnMut(&mut Self, T) -> bool,
+    ) -> bool {
         let mut blocked = false;
         for item in items {
             blocked |= test(self, item);
@@ -219,6 +223,13 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for BottomLevel<'_, '_, U, P> {
                     }
                 }
             }
+            Items::Moving(moving) => {
+                for index in items {
+                    if let Some(hit) = self.triangle(&moving.at(index, self.space.ray.time), best.t) {
+                        best.offer(hit);
+                    }
+                }
+            }
             Items::Boxes(leaves) => {
                 for leaf in &leaves[items] {
                     if let Some(hit) = self.user(leaf, best.t) {
@@ -235,6 +246,10 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for BottomLevel<'_, '_, U, P> {
         match &self.geometry.items {
             Items::Triangles { leaves, .. } => {
                 self.some(&leaves[items], |level, leaf| level.triangle(leaf, t_max).is_some())
+            }
+            Items::Moving(moving) => {
+                let time = self.space.ray.time;
+                self.some(items, |level, index| level.triangle(&moving.at(index, time), t_max).is_some())
             }
             Items::Boxes(leaves) => self.some(&leaves[items], Self::user_blocks),
         }

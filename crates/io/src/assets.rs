@@ -10,7 +10,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use durer_scene::{AssetError, Assets, Image, Limits};
+use durer_scene::{AssetError, Assets, Image, Limits, Mesh};
 
 /// Files below one folder, and images embedded in the scene file itself.
 #[derive(Debug)]
@@ -37,17 +37,6 @@ impl FileAssets {
     pub fn limits(&self) -> Limits {
         self.limits
     }
-    /// The contents of the file at `path` (relative to the folder, `/` or `\` between names) or of the embedded file
-    /// of that name.
-    ///
-    /// # Errors
-    /// Why it could not be had.
-    pub fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
-        if let Some(bytes) = self.embedded.get(path) {
-            return Ok(Arc::clone(bytes));
-        }
-        read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
-    }
     /// Where the file at `path` is, once it is certain that it lies in the folder.
     ///
     /// # Errors
@@ -67,6 +56,18 @@ impl FileAssets {
 }
 
 impl Assets for FileAssets {
+    /// The contents of the file at `path` (relative to the folder, `/` or `\` between names) or of the embedded file
+    /// of that name.
+    fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
+        if let Some(bytes) = self.embedded.get(path) {
+            return Ok(Arc::clone(bytes));
+        }
+        read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
+    }
+    fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
+        let reason = "PLY files are not read yet".to_owned();
+        Err(AssetError::Unsupported { path: path.to_owned(), reason })
+    }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         if let Some(image) = self.cache().get(path) {
             return Ok(Arc::clone(image));

@@ -2,7 +2,7 @@
 mod gltf_document;
 
 use durer_core::glam::DVec3;
-use durer_scene::{Node, Severity};
+use durer_scene::{Assets, Node, Severity};
 use gltf_document::{first, import, import_well, numbers, word};
 use serde_json::{Value, json};
 

@@ -16,6 +16,8 @@ pub struct Surface {
     pub n_s: Normal3,
     /// Surface coordinates for textures.
     pub uv: Point2,
+    /// The second set of a mesh; the first where there is none.
+    pub second_uv: Point2,
     /// Derivative of `p` by `uv.x`; not normalised.
     pub dpdu: Vector3,
     /// Derivative of `p` by `uv.y`; not normalised.
@@ -68,6 +70,6 @@ impl Surface {
     }
     /// Where textures are looked up.
     pub fn texture_at(&self) -> TextureAt {
-        TextureAt { uv: self.uv, p: self.p, vertex_color: self.vertex_color }
+        TextureAt { uv: self.uv, second_uv: self.second_uv, p: self.p, vertex_color: self.vertex_color }
     }
 }

@@ -58,7 +58,7 @@ pub(crate) struct MergedMesh {
 /// A shape that is no mesh.
 #[derive(Debug)]
 pub(crate) struct PlacedShape {
-    pub(crate) shape: Box<dyn Shape>,
+    pub(crate) shape: Arc<dyn Shape>,
     pub(crate) object: Id<Object>,
     /// Identity for moving shapes: the kernel places them.
     pub(crate) render_from_object: Transform,
@@ -213,13 +213,14 @@ impl Scene {
         match &self.targets[hit.instance as usize] {
             Target::Merged => {
                 let merged = self.merged_at(hit.prim);
-                let surface = mesh_surface(&merged.mesh, hit.prim - merged.first_triangle, hit.u, hit.v);
+                let surface =
+                    mesh_surface(&merged.mesh, hit.prim - merged.first_triangle, [hit.u, hit.v], ray.time);
                 let reverse = self.object(merged.object).reverse_orientation;
                 (merged.object, if reverse { surface.reversed() } else { surface })
             }
             Target::Mesh(object, mesh) => {
                 let to_render = self.accel.instance_transform(hit.instance, ray.time);
-                let surface = mesh_surface(mesh, hit.prim, hit.u, hit.v);
+                let surface = mesh_surface(mesh, hit.prim, [hit.u, hit.v], ray.time);
                 (*object, surface.placed(&to_render, self.object(*object).reverse_orientation))
             }
             Target::Shapes => {

@@ -1,6 +1,8 @@
 //! The only door to files: `compile` asks, `durer-io` answers.
 use std::sync::Arc;
 
+use crate::Mesh;
+
 /// Bounds on what a hostile file may make us allocate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -91,9 +93,19 @@ pub struct Image {
     pub data: ImageData,
 }
 
-/// Where a scene's files come from.
+/// Where a scene's files come from. Paths are as the scene file spells them.
 pub trait Assets: Sync {
-    /// The image at `path`, as the scene file spells it.
+    /// The contents of the file at `path`, decompressed if it is gzip.
+    ///
+    /// # Errors
+    /// Why they could not be had.
+    fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError>;
+    /// The triangles of the PLY file at `path`.
+    ///
+    /// # Errors
+    /// Why they could not be had.
+    fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError>;
+    /// The image at `path`.
     ///
     /// # Errors
     /// Why it could not be had.

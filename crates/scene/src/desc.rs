@@ -95,8 +95,8 @@ pub struct LightDesc {
 /// Where a shape's geometry is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum ShapeSource {
-    /// Kind and parameters.
-    Node(Node),
+    /// Kind and parameters; shapes that share a node share what is built from it.
+    Node(Arc<Node>),
     /// A mesh of [`SceneDesc::meshes`]; several shapes may share one.
     Mesh(Id<Mesh>),
 }

@@ -1,5 +1,5 @@
 //! Triangle meshes as plain arrays.
-use durer_core::math::{Normal3, Point2, Point3};
+use durer_core::math::{Normal3, Point2, Point3, Segment};
 use serde::Serialize;
 
 /// An indexed triangle mesh in object space. Optional arrays are empty or as long as `positions`.
@@ -13,10 +13,26 @@ pub struct Mesh {
     pub normals: Vec<Normal3>,
     /// Texture coordinates; `v` grows upwards, (0, 0) is an image's lower left corner.
     pub uvs: Vec<Point2>,
+    /// A second set of them, for textures that ask for it.
+    pub second_uvs: Vec<Point2>,
     /// Tangents with handedness in the fourth number (glTF): bitangent = w * cross(normal, tangent).
     pub tangents: Vec<[f32; 4]>,
     /// Linear RGBA factors per vertex.
     pub colors: Vec<[f32; 4]>,
+    /// The moment of `positions` in seconds; of no account for a mesh that keeps its shape.
+    pub time: f32,
+    /// Where the vertices are later: between keys each moves on a straight line, before the first and after the last it
+    /// stands still. Empty for a mesh that keeps its shape.
+    pub later: Vec<VertexKey>,
+}
+
+/// All vertices of a mesh at another moment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct VertexKey {
+    /// In seconds, after that of the key before.
+    pub time: f32,
+    /// As many as the mesh has.
+    pub positions: Vec<Point3>,
 }
 
 /// Why arrays make no mesh.
@@ -42,6 +58,12 @@ pub enum MeshError {
         /// The length wanted.
         vertices: usize,
     },
+    /// The moments of the vertex keys do not rise.
+    #[error("vertex key {key} is not later than the one before it")]
+    Time {
+        /// Which key, counted from 1.
+        key: usize,
+    },
     /// A position is infinite or NaN.
     #[error("vertex {vertex} is not finite")]
     NotFinite {
@@ -51,6 +73,29 @@ pub enum MeshError {
 }
 
 impl Mesh {
+    /// Whether it changes its shape.
+    pub fn is_still(&self) -> bool {
+        self.later.is_empty()
+    }
+    /// How many keys it has: 1 if it keeps its shape.
+    pub fn keys(&self) -> usize {
+        1 + self.later.len()
+    }
+    /// The moment of a key, in seconds, and where the vertices are then; the last key if there are fewer.
+    pub fn key(&self, key: usize) -> (f32, &[Point3]) {
+        let found = key.checked_sub(1).and_then(|later| self.later.get(later).or(self.later.last()));
+        found.map_or((self.time, &self.positions), |k| (k.time, &k.positions))
+    }
+    /// Where `vertices` are at `time` seconds; the origin for one that is not there.
+    pub fn corners(&self, vertices: [usize; 3], time: f32) -> [Point3; 3] {
+        let of = |positions: &[Point3], i: usize| positions.get(i).copied().unwrap_or(Point3::ZERO);
+        if self.is_still() {
+            return vertices.map(|i| of(&self.positions, i));
+        }
+        let segment = Segment::at(time, self.keys(), |key| self.key(key).0);
+        let (a, b) = (self.key(segment.key).1, self.key(segment.key + 1).1);
+        vertices.map(|i| segment.point(of(a, i), of(b, i)))
+    }
     /// Checks array lengths, indices and positions.
     ///
     /// # Errors
@@ -60,6 +105,7 @@ impl Mesh {
         let lengths = [
             ("normals", self.normals.len()),
             ("texture coordinates", self.uvs.len()),
+            ("second texture coordinates", self.second_uvs.len()),
             ("tangents", self.tangents.len()),
             ("colors", self.colors.len()),
         ];
@@ -68,8 +114,21 @@ impl Mesh {
                 return Err(MeshError::Length { attribute, found, vertices });
             }
         }
-        if let Some(vertex) = self.positions.iter().position(|p| !p.is_finite()) {
-            return Err(MeshError::NotFinite { vertex });
+        let mut before = self.time;
+        for (key, VertexKey { time, positions }) in (1..).zip(&self.later) {
+            if positions.len() != vertices {
+                return Err(MeshError::Length { attribute: "vertex key", found: positions.len(), vertices });
+            }
+            if !(before < *time && time.is_finite() && before.is_finite()) {
+                return Err(MeshError::Time { key });
+            }
+            before = *time;
+        }
+        let of_keys = self.later.iter().map(|k| &k.positions);
+        for positions in std::iter::once(&self.positions).chain(of_keys) {
+            if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+                return Err(MeshError::NotFinite { vertex });
+            }
         }
         for (triangle, t) in self.indices.iter().enumerate() {
             if let Some(&vertex) = t.iter().find(|&&i| i as usize >= vertices) {

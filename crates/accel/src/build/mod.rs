@@ -1,7 +1,7 @@
 //! From geometries and placements to an `Accel`.
 mod sah;
 
-use durer_core::math::Bounds3;
+use durer_core::math::{Bounds3, Point3};
 
 use crate::{
     Accel, BuildError, GeometryId, Placement, Triangles, accel::Instance, geometry::Geometry, placement::Pose,
@@ -56,7 +56,26 @@ impl AccelBuilder {
     /// # Errors
     /// A vertex that is not finite, an index that is out of range, or too many triangles.
     pub fn triangles(&mut self, mesh: Triangles) -> Result<GeometryId, BuildError> {
-        let geometry = Geometry::triangles(&mesh, &self.options)?;
+        let geometry = Geometry::triangles(&mesh.positions, &mesh.indices, &self.options)?;
+        self.add(geometry)
+    }
+
+    /// Adds a mesh whose vertices move: `(seconds, positions)` with rising times, each vertex on a straight line between
+    /// keys, still before the first and after the last. A single key makes an ordinary mesh.
+    ///
+    /// # Errors
+    /// As [`AccelBuilder::triangles`]; keys of different lengths or whose times do not rise.
+    pub fn keyed_triangles<'a>(
+        &mut self,
+        indices: &[[u32; 3]],
+        keys: impl IntoIterator<Item = (f32, &'a [Point3])>,
+    ) -> Result<GeometryId, BuildError> {
+        let keys: Vec<_> = keys.into_iter().collect();
+        let geometry = match keys.as_slice() {
+            [] => Geometry::triangles(&[], indices, &self.options)?,
+            [(_, positions)] => Geometry::triangles(positions, indices, &self.options)?,
+            keys => Geometry::moving(indices, keys, &self.options)?,
+        };
         self.add(geometry)
     }
 

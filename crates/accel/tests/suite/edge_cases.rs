@@ -263,5 +263,5 @@ fn probes_see_nodes_whose_boxes_the_ray_enters() {
         }
     }
     assert_eq!(accel.instance_geometry(1), floor);
-    assert_eq!(accel.triangle(1, 1), Some([0, 2, 3].map(|i: usize| square().positions[i])));
+    assert_eq!(accel.triangle(1, 1, 0.0), Some([0, 2, 3].map(|i: usize| square().positions[i])));
 }

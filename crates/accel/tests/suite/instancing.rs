@@ -49,7 +49,7 @@ fn instances_and_baked_meshes_are_hit_alike() {
                 assert!(near_edge(&a) && near_edge(&b), "{ray:?} {a:?} {b:?}");
                 continue;
             }
-            let [p, q, r] = reference.triangle(0, b.prim).expect("a mesh");
+            let [p, q, r] = reference.triangle(0, b.prim, 0.0).expect("a mesh");
             let n = (q - p).cross(r - p).normalize();
             let largest = [o, p, q, r, ray.at(b.t)]
                 .iter()

@@ -41,7 +41,7 @@ proptest! {
         if let Some(h) = hit {
             prop_assert!(h.t > 0.0 && h.t.is_finite());
             prop_assert!(h.u >= 0.0 && h.v >= 0.0 && h.u + h.v <= 1.0 + 2e-6);
-            let vertices = tree.triangle(0, h.prim).expect("a mesh");
+            let vertices = tree.triangle(0, h.prim, 0.0).expect("a mesh");
             prop_assert_eq!(vertices, mesh.indices[h.prim as usize].map(|i| mesh.positions[i as usize]));
             let b = Bounds3::around(vertices);
             prop_assert!(!b.is_empty());

@@ -231,6 +231,10 @@ pub struct Point2 {
 }
 
 impl Point2 {
+    /// `[x, y]`.
+    pub const fn to_array(self) -> [f32; 2] {
+        [self.x, self.y]
+    }
     /// From two coordinates.
     pub const fn new(x: f32, y: f32) -> Self {
         Self { x, y }

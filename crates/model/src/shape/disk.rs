@@ -103,6 +103,6 @@ impl Kind for Disk {
         if phi_max == 0.0 {
             args.error("phimax", "\"phimax\" is 0, expected more than 0");
         }
-        args.is_sound().then(|| Geometry::Shape(Box::new(Self::new(height, radius, inner_radius, phi_max))))
+        args.is_sound().then(|| Geometry::shape(Self::new(height, radius, inner_radius, phi_max)))
     }
 }

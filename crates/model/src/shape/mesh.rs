@@ -4,6 +4,8 @@
 //! Partial derivatives solve `p_i = p + u_i dpdu + v_i dpdv` for the triangle's texture coordinates (Physically Based
 //! Rendering, 4th edition, section 6.5.2); the error of the point is that of section 6.8.5. Finding the hit is the
 //! kernel's business (`durer-accel`).
+use std::sync::Arc;
+
 use durer_core::{
     glam::DVec3,
     math::{Frame, Normal3, Point2, Point3, Vector3, error::gamma},
@@ -62,7 +64,7 @@ impl Kind for TriangleMesh {
         let normals = args.triples("N").into_iter().map(Normal3::from).collect();
         let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
         let tangents = args.triples("S").into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
-        let mesh = Mesh { positions, indices: triangles, normals, uvs, tangents, colors: Vec::new() };
+        let mesh = Mesh { positions, indices: triangles, normals, uvs, tangents, ..Mesh::default() };
         if args.is_sound()
             && let Err(error) = mesh.validate()
         {
@@ -71,11 +73,11 @@ impl Kind for TriangleMesh {
                 durer_scene::MeshError::Length { attribute: "normals", .. } => "N",
                 durer_scene::MeshError::Length { attribute: "tangents", .. } => "S",
                 durer_scene::MeshError::Length { .. } => "uv",
-                durer_scene::MeshError::NotFinite { .. } => "P",
+                durer_scene::MeshError::NotFinite { .. } | durer_scene::MeshError::Time { .. } => "P",
             };
             args.error(name, error.to_string());
         }
-        args.is_sound().then_some(Geometry::Mesh(mesh))
+        args.is_sound().then(|| Geometry::Mesh(Arc::new(mesh)))
     }
 }
 
@@ -90,19 +92,23 @@ impl Weights {
     fn sum<T: Copy, const N: usize>(&self, list: &[T], numbers: impl Fn(T) -> [f32; N]) -> Option<[f32; N]> {
         let [p, q, r] = self.vertices.map(|i| list.get(i).copied().map(&numbers));
         let (p, q, r) = (p?, q?, r?);
-        Some(std::array::from_fn(|i| self.b[0] * p[i] + self.b[1] * q[i] + self.b[2] * r[i]))
+        Some(self.mean([p, q, r]))
+    }
+    /// The weighted sum of the vertices' numbers.
+    fn mean<const N: usize>(&self, [p, q, r]: [[f32; N]; 3]) -> [f32; N] {
+        std::array::from_fn(|i| self.b[0] * p[i] + self.b[1] * q[i] + self.b[2] * r[i])
     }
 }
 
-/// The place where triangle `prim` of a valid `mesh` was hit, in object space; `u` and `v` weigh its vertices 1 and 2.
+/// The place where triangle `prim` of a valid `mesh` was hit at `time`, in object space; `u` and `v`, the notes of the
+/// hit, weigh its vertices 1 and 2.
 ///
 /// The geometric normal follows the counter-clockwise winding, turned to the side of the vertex normals if there are any
 /// (as pbrt does). A triangle without area gets the z axis if nothing better is known.
-pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
+pub fn mesh_surface(mesh: &Mesh, prim: u32, [u, v]: [f32; 2], time: f32) -> Surface {
     let vertices = mesh.indices[prim as usize].map(|i| i as usize);
     let weights = Weights { vertices, b: [1.0 - u - v, u, v] };
-    let corners = vertices.map(|i| mesh.positions[i]);
-    let [p0, p1, p2] = corners.map(Point3::to_f64);
+    let [p0, p1, p2] = mesh.corners(vertices, time).map(Point3::to_f64);
     let (b1, b2) = (f64::from(u), f64::from(v));
     // In f64: rounding b_0 to f32 would move the point off the plane by more than the bound when b_0 is small.
     let b0 = 1.0 - b1 - b2;
@@ -121,8 +127,7 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
         [] => [Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(1.0, 1.0)],
         uvs => vertices.map(|i| uvs[i]),
     };
-    let mix =
-        |c: fn(Point2) -> f32| weights.b[0] * c(uvs[0]) + weights.b[1] * c(uvs[1]) + weights.b[2] * c(uvs[2]);
+    let uv = Point2::from(weights.mean(uvs.map(Point2::to_array)));
     let (dpdu, dpdv) =
         tangents(mesh, &weights, n_s).or_else(|| partials([p0, p1, p2], uvs)).unwrap_or_else(|| {
             let frame = Frame::from_z(n_g);
@@ -133,7 +138,8 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, u: f32, v: f32) -> Surface {
         p_error,
         n_g,
         n_s,
-        uv: Point2::new(mix(|c| c.x), mix(|c| c.y)),
+        uv,
+        second_uv: weights.sum(&mesh.second_uvs, Point2::to_array).map_or(uv, Point2::from),
         dpdu,
         dpdv,
         vertex_color: weights.sum(&mesh.colors, |c| c).unwrap_or([1.0; 4]),

@@ -8,7 +8,7 @@ mod plane;
 pub mod polygon;
 mod sphere;
 
-use std::{f32::consts::TAU, fmt::Debug};
+use std::{f32::consts::TAU, fmt::Debug, sync::Arc};
 
 use durer_core::math::{Bounds3, Ray, float};
 use durer_scene::{Entry, Mesh};
@@ -45,12 +45,19 @@ pub trait Shape: Debug + Send + Sync {
 }
 
 /// What a shape's description becomes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Geometry {
     /// Triangles, which the kernel intersects itself.
-    Mesh(Mesh),
-    /// Anything else.
-    Shape(Box<dyn Shape>),
+    Mesh(Arc<Mesh>),
+    /// Anything else: one shape, or the parts of one.
+    Shapes(Vec<Arc<dyn Shape>>),
+}
+
+impl Geometry {
+    /// A single shape.
+    pub fn shape(shape: impl Shape + 'static) -> Self {
+        Self::Shapes(vec![Arc::new(shape)])
+    }
 }
 
 /// Words of pbrt-v4 that are known but not built yet.

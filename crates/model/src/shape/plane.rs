@@ -95,6 +95,7 @@ impl Carrier {
             n_g: n,
             n_s: n,
             uv,
+            second_uv: uv,
             dpdu: Vector3::from_f64(self.u * size[0]),
             dpdv: Vector3::from_f64(self.v * size[1]),
             vertex_color: [1.0; 4],
@@ -176,6 +177,6 @@ impl Kind for Plane {
         if uv_scale == 0.0 {
             args.error("uvscale", "\"uvscale\" is 0, expected more than 0");
         }
-        args.is_sound().then(|| Geometry::Shape(Box::new(Self::new(point, normal, uv_scale))))
+        args.is_sound().then(|| Geometry::shape(Self::new(point, normal, uv_scale)))
     }
 }

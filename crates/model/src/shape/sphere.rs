@@ -143,12 +143,14 @@ impl Shape for Sphere {
         // A pole has no azimuth: any will do.
         let (cos_phi, sin_phi) = if across > 0.0 { (exact.x / across, exact.y / across) } else { (1.0, 0.0) };
         let down = Vector3::from_f64(DVec3::new(exact.z * cos_phi, exact.z * sin_phi, -across));
+        let uv = Point2::new(phi(exact) / self.phi_max, (theta - bottom) / (top - bottom));
         Surface {
             p,
             p_error: (p - Point3::ZERO).abs() * gamma(5),
             n_g: n,
             n_s: n,
-            uv: Point2::new(phi(exact) / self.phi_max, (theta - bottom) / (top - bottom)),
+            uv,
+            second_uv: uv,
             dpdu: Vector3::new(-p.y, p.x, 0.0) * self.phi_max,
             dpdv: down * (top - bottom),
             vertex_color: [1.0; 4],
@@ -193,6 +195,6 @@ impl Kind for Sphere {
         if args.is_sound() && z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {
             args.error("zmin", format!("nothing of the sphere lies between zmin {z_min} and zmax {z_max}"));
         }
-        args.is_sound().then(|| Geometry::Shape(Box::new(Self::cut(radius, z_min, z_max, phi_max))))
+        args.is_sound().then(|| Geometry::shape(Self::cut(radius, z_min, z_max, phi_max)))
     }
 }

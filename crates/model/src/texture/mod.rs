@@ -31,6 +31,8 @@ pub use value::Value;
 pub struct TextureAt {
     /// Surface coordinates.
     pub uv: Point2,
+    /// The second set of a mesh; the first where there is none.
+    pub second_uv: Point2,
     /// The point in render space.
     pub p: Point3,
     /// Linear RGBA factor of the mesh's vertices.

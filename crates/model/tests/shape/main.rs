@@ -6,6 +6,8 @@ mod registry;
 mod scale;
 mod sphere;
 
+use std::sync::Arc;
+
 use durer_core::{
     glam::DVec3,
     math::{Point3, Ray, Vector3},
@@ -29,9 +31,9 @@ fn build(kind: &str, params: Params) -> Result<Geometry, String> {
     }
 }
 
-fn shape(kind: &str, params: Params) -> Box<dyn Shape> {
+fn shape(kind: &str, params: Params) -> Arc<dyn Shape> {
     match build(kind, params) {
-        Ok(Geometry::Shape(shape)) => shape,
+        Ok(Geometry::Shapes(parts)) if parts.len() == 1 => parts[0].clone(),
         other => panic!("{kind} is no shape: {other:?}"),
     }
 }

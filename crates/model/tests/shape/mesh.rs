@@ -25,7 +25,7 @@ fn the_point_is_the_weighted_sum_within_its_error() {
         let (a, b) = (random.unit(), random.unit());
         let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
         let (u, v) = (u as f32, v as f32);
-        let s = mesh_surface(&mesh, 0, u, v);
+        let s = mesh_surface(&mesh, 0, [u, v], 0.0);
         let [p0, p1, p2] = [0, 1, 2].map(|i| positions[i].to_f64());
         let (u, v) = (f64::from(u), f64::from(v));
         let exact = p0 + (p1 - p0) * u + (p2 - p0) * v;
@@ -35,7 +35,7 @@ fn the_point_is_the_weighted_sum_within_its_error() {
 
 #[test]
 fn flat_triangles_have_the_normal_of_their_winding_and_default_uvs() {
-    let s = mesh_surface(&triangle(), 0, 0.25, 0.5);
+    let s = mesh_surface(&triangle(), 0, [0.25, 0.5], 0.0);
     assert_eq!((s.n_g, s.n_s), (Normal3::new(0.0, 0.0, 1.0), Normal3::new(0.0, 0.0, 1.0)));
     assert_eq!((s.uv, s.vertex_color), (Point2::new(0.75, 0.5), [1.0; 4]));
     // p = p0 + u' (p1 - p0) + v' (p2 - p1) for the default uvs.
@@ -45,13 +45,13 @@ fn flat_triangles_have_the_normal_of_their_winding_and_default_uvs() {
 #[test]
 fn vertex_normals_turn_the_geometric_normal() {
     let mesh = Mesh { normals: vec![Normal3::new(0.0, 0.6, -0.8); 3], ..triangle() };
-    let s = mesh_surface(&mesh, 0, 0.25, 0.5);
+    let s = mesh_surface(&mesh, 0, [0.25, 0.5], 0.0);
     assert_eq!(s.n_g, Normal3::new(0.0, 0.0, -1.0));
     assert!((s.n_s.length() - 1.0).abs() < 1e-6 && s.n_s.dot(s.n_g) > 0.0);
     // Normals that cancel leave the triangle flat.
     let [up, down] = [1.0, -1.0].map(|z| Normal3::new(0.0, 0.0, z));
     let mesh = Mesh { normals: vec![up, down, up], ..triangle() };
-    assert_eq!(mesh_surface(&mesh, 0, 0.5, 0.0).n_s, up);
+    assert_eq!(mesh_surface(&mesh, 0, [0.5, 0.0], 0.0).n_s, up);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn tangents_and_colors_are_interpolated() {
         colors: vec![[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]],
         ..triangle()
     };
-    let s = mesh_surface(&mesh, 0, 0.25, 0.5);
+    let s = mesh_surface(&mesh, 0, [0.25, 0.5], 0.0);
     // w cross(n, t) = -(z x y) = x
     assert_eq!((s.dpdu, s.dpdv), (Vector3::new(0.0, 1.0, 0.0), Vector3::new(1.0, 0.0, 0.0)));
     assert_eq!(s.vertex_color, [0.25, 0.25, 0.5, 0.5]);
@@ -75,7 +75,7 @@ fn degenerate_triangles_give_no_nan() {
     let folded = Mesh { uvs: vec![Point2::new(0.5, 0.5); 3], ..triangle() };
     let zero_normals = Mesh { normals: vec![Normal3::ZERO; 3], tangents: vec![[0.0; 4]; 3], ..triangle() };
     for mesh in [same, folded, zero_normals] {
-        let s = mesh_surface(&mesh, 0, 0.3, 0.3);
+        let s = mesh_surface(&mesh, 0, [0.3, 0.3], 0.0);
         assert!(
             s.p.is_finite()
                 && s.n_g.is_finite()

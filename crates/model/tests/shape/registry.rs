@@ -1,4 +1,6 @@
 //! What holds for every registered shape (T1).
+use std::sync::Arc;
+
 use durer_core::{
     glam::DVec3,
     math::{Point3, Ray, Vector3},
@@ -40,12 +42,12 @@ fn samples(kind: &str) -> Vec<Params> {
     }
 }
 
-fn shapes() -> Vec<(&'static str, Box<dyn Shape>)> {
+fn shapes() -> Vec<(&'static str, Arc<dyn Shape>)> {
     let all = SHAPES.iter().flat_map(|e| samples(e.schema.name).into_iter().map(|p| (e.schema.name, p)));
     all.filter_map(|(kind, params)| match build(kind, params).expect("sample parameters are sound") {
-        Geometry::Shape(shape) => Some((kind, shape)),
+        Geometry::Shapes(parts) => Some((kind, parts.into_iter().next().expect("one part"))),
         Geometry::Mesh(mesh) => {
-            let s = mesh_surface(&mesh, 0, 0.25, 0.25);
+            let s = mesh_surface(&mesh, 0, [0.25, 0.25], 0.0);
             assert!(s.n_g.z == 1.0 && s.p.z == 0.5);
             None
         }

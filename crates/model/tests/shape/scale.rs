@@ -103,7 +103,7 @@ fn grazing_rays_never_meet_the_triangle_they_leave() {
             }
             let mesh = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
             let (u, v) = (random.between(0.0, 0.5) as f32, random.between(0.0, 0.5) as f32);
-            let s = mesh_surface(&mesh, 0, u, v).placed(&m, false);
+            let s = mesh_surface(&mesh, 0, [u, v], 0.0).placed(&m, false);
             for side in [1.0, -1.0] {
                 let spawned = m.inverse().ray(&s.spawn(leaving(&mut random, &s, side), 0.0));
                 assert!(!meets(&spawned, corners), "scale {scale:e} side {side}: {s:?} {spawned:?}");

@@ -11,13 +11,20 @@ use durer_model::{
     texture::{Texture, TextureAt, textures},
 };
 use durer_scene::{
-    Args, AssetError, Assets, Diagnostics, Image, ImageData, Missing, Node, Params, TextureDesc, TextureValue,
+    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, TextureDesc,
+    TextureValue,
 };
 
 /// One image under every name but "missing.png".
 struct Files(Image);
 
 impl Assets for Files {
+    fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
+    fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         match path {
             "missing.png" => Err(AssetError::Missing { path: path.to_owned() }),
@@ -38,7 +45,7 @@ fn built(kind: &str, value: TextureValue, params: Params, image: &Image) -> Resu
 }
 
 fn at(u: f32, v: f32) -> TextureAt {
-    TextureAt { uv: Point2::new(u, v), p: Point3::ZERO, vertex_color: [1.0; 4] }
+    TextureAt { uv: Point2::new(u, v), second_uv: Point2::new(u, v), p: Point3::ZERO, vertex_color: [1.0; 4] }
 }
 
 fn color(t: &dyn Texture, u: f32, v: f32) -> [f32; 3] {

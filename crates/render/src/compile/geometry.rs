@@ -54,7 +54,7 @@ struct Pending {
 }
 
 impl Pending {
-    fn shape(&mut self, shape: Box<dyn Shape>, object: Id<Object>, motion: Motion) {
+    fn shape(&mut self, shape: Arc<dyn Shape>, object: Id<Object>, motion: &Motion) {
         let place = |m: Transform| PlacedShape {
             shape,
             object,
@@ -64,7 +64,7 @@ impl Pending {
         if motion.is_still() {
             self.shapes.push(place(Transform::from_f64(&motion.at(0.0))));
         } else {
-            self.movers.push((place(Transform::IDENTITY), motion));
+            self.movers.push((place(Transform::IDENTITY), motion.clone()));
         }
     }
 }
@@ -77,9 +77,10 @@ pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bou
         let place = |p: &Point3| Point3::from_f64(m.transform_point3(p.to_f64()));
         let local = match (geometry, &shape.source) {
             (Some(Geometry::Mesh(mesh)), _) => Bounds3::around(mesh.positions.iter().map(place)),
-            (Some(Geometry::Shape(shape)), _) => {
-                let b = shape.bounds();
-                if b.is_finite() { Bounds3::around(b.corners().iter().map(place)) } else { Bounds3::EMPTY }
+            (Some(Geometry::Shapes(parts)), _) => {
+                let finite = parts.iter().map(|part| part.bounds()).filter(Bounds3::is_finite);
+                finite
+                    .fold(Bounds3::EMPTY, |all, b| all.union(Bounds3::around(b.corners().iter().map(place))))
             }
             (None, ShapeSource::Mesh(id)) => match desc.meshes.get(id.index()) {
                 Some(mesh) => Bounds3::around(mesh.positions.iter().map(place)),
@@ -99,10 +100,12 @@ impl Placing<'_> {
         geometry: Vec<Option<Geometry>>,
         diagnostics: &mut Diagnostics,
     ) -> Option<Placed> {
-        let mut uses = vec![0u32; self.desc.meshes.len()];
-        for shape in &self.desc.shapes {
-            if let ShapeSource::Mesh(id) = shape.source {
-                uses[id.index()] += 1;
+        let mut uses: HashMap<*const Mesh, u32> = HashMap::new();
+        let geometry: Vec<_> =
+            self.desc.shapes.iter().zip(geometry).map(|(s, g)| self.geometry(s, g)).collect();
+        for geometry in &geometry {
+            if let Some(Geometry::Mesh(mesh)) = geometry {
+                *uses.entry(Arc::as_ptr(mesh)).or_default() += 1;
             }
         }
         let mut pending = Pending::default();
@@ -115,17 +118,15 @@ impl Placing<'_> {
                 diagnostics.error(at(shape), "the shape's transform cannot be inverted: it flattens space");
                 continue;
             }
-            match (geometry, &shape.source) {
-                (Some(Geometry::Mesh(mesh)), _) => {
-                    pending.meshes.push(PendingMesh { object, mesh: Arc::new(mesh), motion, shared: false });
-                }
-                (Some(Geometry::Shape(shape)), _) => pending.shape(shape, object, motion),
-                (None, ShapeSource::Mesh(id)) => {
-                    let mesh = self.desc.meshes[id.index()].clone();
-                    let shared = uses[id.index()] > 1;
+            match geometry {
+                Some(Geometry::Mesh(mesh)) => {
+                    let shared = uses.get(&Arc::as_ptr(&mesh)).is_some_and(|&n| n > 1);
                     pending.meshes.push(PendingMesh { object, mesh, motion, shared });
                 }
-                (None, ShapeSource::Node(_)) => {}
+                Some(Geometry::Shapes(parts)) => {
+                    parts.into_iter().for_each(|part| pending.shape(part, object, &motion));
+                }
+                None => {}
             }
         }
         match self.build(pending, objects) {
@@ -134,6 +135,14 @@ impl Placing<'_> {
                 diagnostics.error(Location::None, error.to_string());
                 None
             }
+        }
+    }
+
+    /// What a shape is made of: built from its node, or a mesh of the description.
+    fn geometry(&self, shape: &ShapeDesc, built: Option<Geometry>) -> Option<Geometry> {
+        match shape.source {
+            ShapeSource::Mesh(id) => self.desc.meshes.get(id.index()).cloned().map(Geometry::Mesh),
+            ShapeSource::Node(_) => built,
         }
     }
 
@@ -153,7 +162,7 @@ impl Placing<'_> {
         let mut kernel = AccelBuilder::new(BuildOptions { engine: self.engine, ..BuildOptions::default() });
         let mut targets = Vec::new();
         let (single, several): (Vec<_>, Vec<_>) =
-            pending.meshes.into_iter().partition(|m| !m.shared && m.motion.is_still());
+            pending.meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
 
         let (merged, triangles) = merge(single);
         if !merged.is_empty() {
@@ -177,8 +186,8 @@ impl Placing<'_> {
             let geometry = match known.entry(Arc::as_ptr(&mesh)) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
-                    let (positions, indices) = (mesh.positions.clone(), mesh.indices.clone());
-                    *new.insert(kernel.triangles(Triangles { positions, indices })?)
+                    let keys = (0..mesh.keys()).map(|key| mesh.key(key));
+                    *new.insert(kernel.keyed_triangles(&mesh.indices, keys)?)
                 }
             };
             kernel.instance(geometry, Placement::from_motion(&motion))?;
@@ -228,7 +237,10 @@ fn baked(mesh: &Mesh, m: &DAffine3) -> Mesh {
         indices: mesh.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect(),
         normals: mesh.normals.iter().map(turn).collect(),
         uvs: mesh.uvs.clone(),
+        second_uvs: mesh.second_uvs.clone(),
         tangents: mesh.tangents.iter().map(tangent).collect(),
         colors: mesh.colors.clone(),
+        time: mesh.time,
+        later: Vec::new(),
     }
 }

@@ -13,6 +13,7 @@ use durer_core::{
     glam::{DAffine3, DVec3},
     math::{Interval, Transform},
 };
+use durer_model::shape::Geometry;
 use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{Scene, View, integrator::Integrator};
@@ -67,7 +68,11 @@ pub fn compile(
     let bounds = geometry::world_bounds(desc, &shapes);
     let camera = chosen_camera(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
-    let shutter = shutter(desc, &camera, options);
+    let bends = |g: &Geometry| matches!(g, Geometry::Mesh(mesh) if !mesh.is_still());
+    let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still())
+        || desc.meshes.iter().any(|mesh| !mesh.is_still())
+        || shapes.iter().flatten().any(bends);
+    let shutter = shutter(&camera, moves, options);
     let opening = f64::from(shutter.min);
     if shutter.min != shutter.max && !camera.world_from_camera.is_still() {
         let message =
@@ -156,8 +161,7 @@ fn view(
 }
 
 /// When the shutter is open: as the options say, else as the camera says; a moment if nothing moves.
-fn shutter(desc: &SceneDesc, camera: &CameraDesc, options: &CompileOptions) -> Interval {
-    let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still());
+fn shutter(camera: &CameraDesc, moves: bool, options: &CompileOptions) -> Interval {
     let of_camera = |name: &str, default: f32| match camera.node.params.get(name).map(|p| &p.data) {
         Some(Data::Floats(v)) => v.first().copied().unwrap_or(default),
         _ => default,

@@ -1,4 +1,6 @@
 //! Nodes to things: the registries of `durer-model` and of the integrators, applied to a description.
+use std::{collections::HashMap, sync::Arc};
+
 use durer_core::{
     glam::{DAffine3, DVec3},
     math::{Interval, Transform},
@@ -14,6 +16,8 @@ use durer_scene::{
     Args, Assets, Diagnostics, Entry, LightDesc, Location, Missing, Node, Params, SceneDesc, ShapeDesc,
     ShapeSource, TextureDesc, find,
 };
+
+use rayon::prelude::*;
 
 use crate::integrator::{INTEGRATORS, Integrator, NOT_YET};
 
@@ -33,21 +37,53 @@ impl Builder<'_> {
         node: &Node,
         textures: &[TextureDesc],
     ) -> Option<T> {
-        let entry = find(registry, family, node, self.diagnostics)?;
-        let mut args = Args::check(node, entry.schema, textures, self.diagnostics)
-            .with_assets(self.assets, self.missing);
-        let built = (entry.build)(&mut args);
-        args.is_sound().then_some(built).flatten()
+        let (built, said) = self.apart(registry, family, node, textures);
+        self.diagnostics.append(said);
+        built
+    }
+
+    /// The same with complaints of its own, so that several nodes can be built at the same time.
+    fn apart<T>(
+        &self,
+        registry: &[Entry<T>],
+        family: &str,
+        node: &Node,
+        textures: &[TextureDesc],
+    ) -> (Option<T>, Diagnostics) {
+        let mut said = Diagnostics::default();
+        let built = find(registry, family, node, &mut said).and_then(|entry| {
+            let mut args =
+                Args::check(node, entry.schema, textures, &mut said).with_assets(self.assets, self.missing);
+            let built = (entry.build)(&mut args);
+            args.is_sound().then_some(built).flatten()
+        });
+        (built, said)
+    }
+
+    /// Builds all of `nodes` at the same time; complaints come in the order of the nodes.
+    fn build_all<'n, T: Send, N: Sync>(
+        &mut self,
+        nodes: &'n [N],
+        build: impl Fn(&Self, usize, &'n N) -> (Option<T>, Diagnostics) + Sync,
+    ) -> Vec<Option<T>>
+    where
+        Self: Sync,
+    {
+        let this = &*self;
+        let built: Vec<_> = nodes.par_iter().enumerate().map(|(i, node)| build(this, i, node)).collect();
+        let (things, said): (Vec<_>, Vec<_>) = built.into_iter().unzip();
+        said.into_iter().for_each(|said| self.diagnostics.append(said));
+        things
     }
 
     /// The textures that could be built; a texture may use only those described before it, so there are no loops.
     pub(super) fn textures(&mut self) -> Vec<Box<dyn Texture>> {
         let all = &self.desc.textures;
-        let built = all.iter().enumerate().map(|(i, t)| {
+        let built = self.build_all(all, |this, i, t| {
             let before = all.get(..i).unwrap_or_default();
-            self.build(texture::textures(t.value), "texture", &t.node, before)
+            this.apart(texture::textures(t.value), "texture", &t.node, before)
         });
-        built.collect::<Vec<_>>().into_iter().flatten().collect()
+        built.into_iter().flatten().collect()
     }
 
     pub(super) fn materials(&mut self) -> Vec<Box<dyn Material>> {
@@ -68,13 +104,24 @@ impl Builder<'_> {
             let message = "nothing is left to draw: none of the scene's shapes is supported yet";
             self.diagnostics.error(Location::None, message);
         }
-        let shapes = shapes.iter().map(|shape| match &shape.source {
-            ShapeSource::Node(node) if not_yet(shape).is_none() => {
-                self.build(SHAPES, "shape", node, &self.desc.textures)
-            }
-            ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
-        });
-        shapes.collect()
+        // A node that several shapes share is built once.
+        let mut numbers: HashMap<*const Node, usize> = HashMap::new();
+        let mut distinct: Vec<&Node> = Vec::new();
+        let mut number_of = Vec::with_capacity(shapes.len());
+        for shape in shapes {
+            number_of.push(match &shape.source {
+                ShapeSource::Node(node) if not_yet(shape).is_none() => {
+                    Some(*numbers.entry(Arc::as_ptr(node)).or_insert_with(|| {
+                        distinct.push(node);
+                        distinct.len() - 1
+                    }))
+                }
+                ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
+            });
+        }
+        let textures = &self.desc.textures;
+        let built = self.build_all(&distinct, |this, _, node| this.apart(SHAPES, "shape", node, textures));
+        number_of.into_iter().map(|number: Option<usize>| built[number?].clone()).collect()
     }
 
     pub(super) fn camera(&mut self, node: &Node) -> Option<Box<dyn Camera>> {

@@ -5,6 +5,7 @@ use base64::{
     Engine, alphabet,
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
+use durer_scene::Assets;
 use percent_encoding::percent_decode_str;
 
 use super::{

@@ -123,6 +123,7 @@ impl<'b, 'a> Meshes<'b, 'a> {
             uvs: read.column("TEXCOORD_0")?.into_iter().map(|[u, v]| Point2::new(u, 1.0 - v)).collect(),
             tangents: read.column("TANGENT")?,
             colors: read.colors()?,
+            ..Mesh::default()
         };
         mesh.validate().map_err(|e| primitive.fault(e.to_string()))?;
         Ok(Some(mesh))

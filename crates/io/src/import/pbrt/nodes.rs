@@ -1,4 +1,6 @@
 //! The directives that name a kind of thing in the world and give it parameters.
+use std::sync::Arc;
+
 use durer_scene::{Data, LightDesc, Node, TextureValue, ValueType};
 
 use super::{
@@ -86,7 +88,7 @@ impl Parser<'_> {
         let name = self.name(&mut params);
         self.world.shape(PlacedShape {
             name,
-            node: Node { kind: kind.text, params: stored(params), at: kind.at.into() },
+            node: Arc::new(Node { kind: kind.text, params: stored(params), at: kind.at.into() }),
             placement: self.state.ctm,
             material: self.state.material,
             reverse: self.state.reverse,

@@ -3,7 +3,10 @@
 //!
 //! Names of materials and objects may be used before they are defined, as in pbrt-v4: a slot is made at first mention
 //! and checked when everything is read.
-use std::collections::{HashMap, HashSet};
+use std::{
+    collections::{HashMap, HashSet},
+    sync::Arc,
+};
 
 use durer_core::Id;
 use durer_scene::{
@@ -19,6 +22,9 @@ use super::{
 /// Most memory, in units of about four bytes, that copies of shapes and parameters may take.
 const MOST_COPIED: u64 = 1 << 28;
 
+/// Most shapes that instances may place: they take about 300 bytes each.
+const MOST_PLACED: usize = 1 << 22;
+
 /// A name that may be used before it is defined.
 #[derive(Debug)]
 struct Slot {
@@ -31,7 +37,7 @@ struct Slot {
 #[derive(Clone, Debug)]
 pub(super) struct PlacedShape {
     pub(super) name: String,
-    pub(super) node: Node,
+    pub(super) node: Arc<Node>,
     pub(super) placement: Placement,
     pub(super) material: Option<MaterialRef>,
     pub(super) reverse: bool,
@@ -197,7 +203,7 @@ impl<'a> World<'a> {
     }
 
     /// Unfolds instances and complains about names that were never defined.
-    pub(super) fn finish(mut self, diagnostics: &mut Diagnostics) {
+    pub(super) fn finish(self, diagnostics: &mut Diagnostics) {
         undefined("material", &self.materials, diagnostics);
         undefined("object", &self.objects, diagnostics);
         let unused = self.objects.values().filter(|s| s.used.is_none()).count();
@@ -205,18 +211,12 @@ impl<'a> World<'a> {
             let message = format!("{unused} object definition(s) are never placed by ObjectInstance");
             diagnostics.note(durer_scene::Location::None, message);
         }
-        let weights: Vec<u64> = self
-            .shapes
-            .iter()
-            .map(|shapes| shapes.iter().map(|s| 128 + s.node.params.iter().map(weight).sum::<u64>()).sum())
-            .collect();
+        let mut placed = 0;
         for instance in &self.instances {
-            let heavy = weights.get(instance.object).copied().unwrap_or(0);
-            self.copied = self.copied.saturating_add(heavy);
-            if self.copied > MOST_COPIED {
-                diagnostics
-                    .error(instance.at, "the copies of objects up to this one take more than 1 GiB")
-                    .hint("write large meshes as files: they are loaded once");
+            placed += self.shapes.get(instance.object).map_or(0, Vec::len);
+            if placed > MOST_PLACED {
+                let message = format!("the instances up to this one place more than {MOST_PLACED} shapes");
+                diagnostics.error(instance.at, message);
                 return;
             }
             for shape in self.shapes.get(instance.object).into_iter().flatten() {

@@ -193,7 +193,7 @@ impl Kind for Polygon {
         let fill_rule =
             if args.text("fillrule") == "nonzero" { FillRule::NonZero } else { FillRule::EvenOdd };
         match Self::new(&loops, fill_rule) {
-            Ok(polygon) => Some(Geometry::Shape(Box::new(polygon))),
+            Ok(polygon) => Some(Geometry::shape(polygon)),
             Err(message) => {
                 args.error("P", format!("no polygon: {message}"));
                 None
