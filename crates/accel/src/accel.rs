@@ -44,6 +44,9 @@ pub struct Accel {
     pub(crate) geometries: Vec<Geometry>,
     pub(crate) instances: Vec<Instance>,
     bounds: Bounds3,
+    /// The one instance is its geometry itself: rays need not pass a tree of instances. PERF: scenes of still things used
+    /// once are like that (bench render).
+    pub(crate) is_flat: bool,
 }
 
 impl Accel {
@@ -59,7 +62,9 @@ impl Accel {
             base += geometry.tree.len() as u32;
         }
         let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
-        Self { engine, top, order, geometries, instances, bounds }
+        let is_flat =
+            matches!(instances.as_slice(), [only] if only.pose.is_identity()) && engine == Engine::Bvh;
+        Self { engine, top, order, geometries, instances, bounds, is_flat }
     }
 
     /// The nearest hit of `ray` with `t` in `[t_min, t_max]`; on equal `t` the one with the smaller
@@ -74,7 +79,11 @@ impl Accel {
         let world = self.space(ray)?;
         let mut best = Hit::nothing(world.ray.t_max);
         let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
-        self.top.nearest(&world.slab, ray.t_min, &mut best, &mut level);
+        if self.is_flat {
+            level.only(|tree, leaves| tree.nearest(&world.slab, ray.t_min, &mut best, leaves));
+        } else {
+            self.top.nearest(&world.slab, ray.t_min, &mut best, &mut level);
+        }
         best.found()
     }
 
@@ -90,7 +99,11 @@ impl Accel {
             return false;
         };
         let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
-        self.top.blocks(&world.slab, Span { t_min: ray.t_min, t_max: ray.t_max }, &mut level)
+        let span = Span { t_min: ray.t_min, t_max: world.ray.t_max };
+        if self.is_flat {
+            return level.only(|tree, leaves| tree.blocks(&world.slab, span, leaves)) == Some(true);
+        }
+        self.top.blocks(&world.slab, span, &mut level)
     }
 
     fn space(&self, ray: &Ray) -> Option<Space> {

@@ -99,6 +99,9 @@ impl Pose {
         }
     }
 
+    pub(crate) fn is_identity(&self) -> bool {
+        matches!(self, Self::Identity)
+    }
     /// `render_from_object` at `time` seconds; `None` stands for the identity.
     pub(crate) fn at(&self, time: f32) -> Option<Transform> {
         match self {

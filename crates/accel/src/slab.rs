@@ -5,7 +5,8 @@
 //! result (Ize 2013, "Robust BVH Ray Traversal") the origin is moved once per ray, one way for lower and the other way
 //! for upper planes, far enough to cover both these roundings and those of the shear in the triangle test (Woop,
 //! Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", section 4, does the same).
-use durer_core::math::{Bounds3, Point3, Ray, Vector3, error::gamma};
+use durer_core::math::{Bounds3, Ray, error::gamma};
+use wide::f32x4;
 
 /// A ray's constants for testing boxes inside a known region.
 #[derive(Clone, Copy, Debug)]
@@ -28,35 +29,41 @@ fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
+/// Three coordinates in a vector; the fourth lane repeats the third.
+#[inline(always)]
+fn lanes([x, y, z]: [f32; 3]) -> f32x4 {
+    f32x4::new([x, y, z, z])
+}
+
 impl Slab {
     /// For boxes inside `region` (which may be empty). `None` for a ray that can hit nothing: a zero or non-finite
     /// direction or a non-finite origin.
     pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
-        let largest = ray.d.abs().max_component();
-        // PERF: 0 x is 0 only for finite x; one comparison instead of six (bench render).
-        let finite = (ray.o - Point3::ZERO) * 0.0 + ray.d * 0.0 == Vector3::ZERO;
+        let (o, d) = (lanes(ray.o.to_array()), lanes(ray.d.to_array()));
+        let largest = greater(greater(ray.d.x.abs(), ray.d.y.abs()), ray.d.z.abs());
+        // 0 x is 0 only for finite x: one comparison instead of six.
+        let finite = (o * 0.0 + d * 0.0).simd_eq(f32x4::ZERO).all();
         if !(finite && largest > 0.0 && (1.0 / largest).is_finite()) {
             return None;
         }
         // A direction this much smaller than the largest moves the ray by less than the padding within the region;
         // the floor keeps products finite, so there is no 0 * infinity.
         let floor = 1e-18 * largest;
-        let inverse = ray.d.to_array().map(|d| {
-            let d = if d.abs() < floor { floor.copysign(d) } else { d };
-            (1.0 / d).clamp(-f32::MAX, f32::MAX)
-        });
-        let reach: [f32; 3] = std::array::from_fn(|a| {
-            let r = greater((region.min[a] - ray.o[a]).abs(), (region.max[a] - ray.o[a]).abs());
-            if r.is_finite() { r } else { 0.0 }
-        });
-        let along = reach[ray.d.max_axis()];
+        let magnitude = d.abs().fast_max(f32x4::splat(floor)).copysign(d);
+        let most = f32x4::splat(f32::MAX);
+        let inverse = (f32x4::ONE / magnitude).fast_min(most).fast_max(-most);
+        let (below, above) = (lanes(region.min.to_array()) - o, lanes(region.max.to_array()) - o);
+        let reach = below.abs().fast_max(above.abs());
+        // An empty region has no reach.
+        let reach = reach.simd_le(most) & reach;
+        let along = reach.to_array()[ray.d.max_axis()];
         // 3 roundings here, 3 in the shear of either triangle test, doubled; then that of moving the origin itself.
-        let pad: [f32; 3] = std::array::from_fn(|a| {
-            gamma(13) * (reach[a] + along) + (f32::EPSILON * ray.o[a].abs() + f32::MIN_POSITIVE)
-        });
-        let o_lower = std::array::from_fn(|a| ray.o[a] + pad[a]);
-        let o_upper = std::array::from_fn(|a| ray.o[a] - pad[a]);
-        Some(Self { o_lower, o_upper, inverse })
+        let pad = (reach + along) * gamma(13) + (o.abs() * f32::EPSILON + f32::MIN_POSITIVE);
+        let three = |v: f32x4| {
+            let [x, y, z, _] = v.to_array();
+            [x, y, z]
+        };
+        Some(Self { o_lower: three(o + pad), o_upper: three(o - pad), inverse: three(inverse) })
     }
 
     /// Where the ray enters and leaves a box; it misses if the first is greater.
@@ -101,6 +108,7 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use durer_core::math::{Point3, Vector3};
 
     fn unit() -> Bounds3 {
         Bounds3::new(Point3::ZERO, Point3::splat(1.0))

@@ -9,7 +9,7 @@ use crate::{
     geometry::{Geometry, Items, LeafBox, LeafTriangle},
     slab::Window,
     space::Space,
-    tree::{Leaves, Span},
+    tree::{Leaves, Span, Tree},
     triangle::{self, Shear},
 };
 
@@ -29,7 +29,7 @@ pub(crate) struct TopLevel<'a, U, P: TraversalProbe> {
 }
 
 /// Leaves that hold primitives of one instance.
-struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
+pub(crate) struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
     geometry: &'a Geometry,
     query: &'a mut Query<'q, U, P>,
     instance: u32,
@@ -56,6 +56,21 @@ impl LeafBox {
 }
 
 impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
+    /// Runs `visit` in the one instance there is, whose space is the world. Its box holds those of its primitives, so
+    /// that they alone decide.
+    #[inline]
+    pub(crate) fn only<R>(
+        &mut self,
+        visit: impl FnOnce(&Tree, &mut BottomLevel<'_, '_, U, P>) -> R,
+    ) -> Option<R> {
+        let instance = self.accel.instances.first()?;
+        let geometry = &self.accel.geometries[instance.geometry.index()];
+        let shear = if geometry.has_triangles() { Some(Shear::new(&self.world.ray)?) } else { None };
+        let (near, exhaustive, query, space) = (f32::NEG_INFINITY, false, &mut self.query, self.world);
+        let mut leaves = BottomLevel { geometry, query, instance: 0, near, space, shear, exhaustive };
+        Some(visit(&geometry.tree, &mut leaves))
+    }
+
     /// Runs `visit` with the ray in the object space of instance `index`.
     fn enter<R>(
         &mut self,

@@ -60,12 +60,14 @@ impl Carrier {
         let slope = self.n.dot(d);
         let slope_error = 8.0 * f64::EPSILON * sum(d);
         let height_error = 8.0 * f64::EPSILON * (sum(o) + sum(self.origin));
-        let t = -self.height(o) / slope;
-        if t < ray.t_min.into() {
+        // PERF: one division; it rounds t once more than two would (bench render).
+        let inverse = 1.0 / slope;
+        let t = -self.height(o) * inverse;
+        if t < ray.t_min.into() || !(slope.abs() > slope_error && t.is_finite()) {
             return None;
         }
-        let error = (height_error + t.abs() * slope_error) / slope.abs() + f64::EPSILON * t.abs();
-        (slope.abs() > slope_error && t.is_finite()).then_some((t, error))
+        let error = (height_error + t.abs() * slope_error) * inverse.abs() + 2.0 * f64::EPSILON * t.abs();
+        Some((t, error))
     }
     /// [`Self::meet`] as far as the ray's interval allows, with the point, which is finite in f32.
     pub(super) fn hit(&self, ray: &Ray) -> Option<(f32, DVec3)> {
