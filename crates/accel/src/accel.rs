@@ -76,9 +76,9 @@ impl Accel {
         probe: &mut P,
         id: P::Id,
     ) -> Option<Hit> {
-        let world = self.space(ray)?;
-        let mut best = Hit::nothing(world.ray.t_max);
-        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
+        let (world, t_max) = self.space(ray)?;
+        let mut best = Hit::nothing(t_max);
+        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world, t_max };
         if self.is_flat {
             level.only(|tree, leaves| tree.nearest(&world.slab, ray.t_min, &mut best, leaves));
         } else {
@@ -95,22 +95,23 @@ impl Accel {
         probe: &mut P,
         id: P::Id,
     ) -> bool {
-        let Some(world) = self.space(ray) else {
+        let Some((world, t_max)) = self.space(ray) else {
             return false;
         };
-        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world };
-        let span = Span { t_min: ray.t_min, t_max: world.ray.t_max };
+        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world, t_max };
+        let span = Span { t_min: ray.t_min, t_max };
         if self.is_flat {
             return level.only(|tree, leaves| tree.blocks(&world.slab, span, leaves)) == Some(true);
         }
         self.top.blocks(&world.slab, span, &mut level)
     }
 
-    fn space(&self, ray: &Ray) -> Option<Space> {
+    /// The ray made ready, and where it ends.
+    fn space<'r>(&self, ray: &'r Ray) -> Option<(Space<'r>, f32)> {
         // A finite end keeps infinity, which a shape's division by 0 may return, from counting as a hit.
         let t_max = if ray.t_max == f32::INFINITY { f32::MAX } else { ray.t_max };
         let valid = ray.t_min <= t_max;
-        if valid { Space::new(&Ray { t_max, ..*ray }, &self.bounds) } else { None }
+        if valid { Some((Space::new(ray, &self.bounds)?, t_max)) } else { None }
     }
 
     /// Box in render space around all finite primitives, over all time; empty if there are none.

@@ -5,15 +5,16 @@ use crate::slab::Slab;
 
 /// A ray and its constants for boxes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Space {
-    pub(crate) ray: Ray,
+pub(crate) struct Space<'r> {
+    /// Borrowed. PERF: a ray just written in parts and copied as a whole stalls (bench render).
+    pub(crate) ray: &'r Ray,
     pub(crate) slab: Slab,
 }
 
-impl Space {
+impl<'r> Space<'r> {
     /// For things inside `region`. `None` if the ray can hit nothing.
     #[inline]
-    pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
-        Some(Self { ray: *ray, slab: Slab::new(ray, region)? })
+    pub(crate) fn new(ray: &'r Ray, region: &Bounds3) -> Option<Self> {
+        Some(Self { ray, slab: Slab::new(ray, region)? })
     }
 }

@@ -1,13 +1,11 @@
 //! What happens in the leaves of both levels: instances enter their geometry, primitives are tested.
 use std::ops::Range;
 
-use durer_core::math::Ray;
-
 use crate::{
     Accel, Engine, Hit, PrimitiveHit, TraversalProbe, UserGeometry,
     accel::Instance,
     geometry::{Geometry, Items, LeafBox, LeafTriangle},
-    slab::Window,
+    slab::{Window, greater},
     space::Space,
     tree::{Leaves, Span, Tree},
     triangle::{self, Shear},
@@ -25,7 +23,9 @@ pub(crate) struct TopLevel<'a, U, P: TraversalProbe> {
     pub(crate) accel: &'a Accel,
     pub(crate) query: Query<'a, U, P>,
     /// The ray in render space.
-    pub(crate) world: &'a Space,
+    pub(crate) world: &'a Space<'a>,
+    /// Where it ends: finite, unlike in the ray itself.
+    pub(crate) t_max: f32,
 }
 
 /// Leaves that hold primitives of one instance.
@@ -36,7 +36,9 @@ pub(crate) struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
     /// Where the ray enters the instance's box.
     near: f32,
     /// The ray in object space.
-    space: &'a Space,
+    space: &'a Space<'a>,
+    /// Where it ends: finite, unlike in the ray itself.
+    t_max: f32,
     /// What triangle tests need of the ray, where there are triangles.
     shear: Option<Shear>,
     /// Test everything, whatever was found.
@@ -44,13 +46,13 @@ pub(crate) struct BottomLevel<'a, 'q, U, P: TraversalProbe> {
 }
 
 impl Instance {
-    fn window(&self, world: &Space) -> Window {
+    fn window(&self, world: &Space<'_>) -> Window {
         if self.is_bounded { world.slab.window_of(&self.bounds) } else { Window::ALL }
     }
 }
 
 impl LeafBox {
-    fn window(&self, space: &Space) -> Window {
+    fn window(&self, space: &Space<'_>) -> Window {
         if self.finite { space.slab.window_of(&self.bounds) } else { Window::ALL }
     }
 }
@@ -65,9 +67,17 @@ impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
     ) -> Option<R> {
         let instance = self.accel.instances.first()?;
         let geometry = &self.accel.geometries[instance.geometry.index()];
-        let shear = if geometry.has_triangles() { Some(Shear::new(&self.world.ray)?) } else { None };
-        let (near, exhaustive, query, space) = (f32::NEG_INFINITY, false, &mut self.query, self.world);
-        let mut leaves = BottomLevel { geometry, query, instance: 0, near, space, shear, exhaustive };
+        let shear = if geometry.has_triangles() { Some(Shear::new(self.world.ray)?) } else { None };
+        let mut leaves = BottomLevel {
+            geometry,
+            query: &mut self.query,
+            instance: 0,
+            near: f32::NEG_INFINITY,
+            space: self.world,
+            t_max: self.t_max,
+            shear,
+            exhaustive: false,
+        };
         Some(visit(&geometry.tree, &mut leaves))
     }
 
@@ -77,24 +87,26 @@ impl<U: UserGeometry, P: TraversalProbe> TopLevel<'_, U, P> {
         index: u32,
         instance: &Instance,
         near: f32,
-        visit: impl FnOnce(&Geometry, &Space, &mut BottomLevel<'_, '_, U, P>) -> R,
+        visit: impl FnOnce(&Geometry, &Space<'_>, &mut BottomLevel<'_, '_, U, P>) -> R,
     ) -> Option<R> {
         let geometry = &self.accel.geometries[instance.geometry.index()];
-        let transformed;
-        let space = match instance.pose.object_ray(&self.world.ray) {
+        let (local, transformed);
+        let space = match instance.pose.object_ray(self.world.ray) {
             None => self.world,
             Some(ray) => {
-                transformed = Space::new(&ray, &geometry.finite)?;
+                local = ray;
+                transformed = Space::new(&local, &geometry.finite)?;
                 &transformed
             }
         };
-        let shear = if geometry.has_triangles() { Some(Shear::new(&space.ray)?) } else { None };
+        let t_max = self.t_max;
+        let shear = if geometry.has_triangles() { Some(Shear::new(space.ray)?) } else { None };
         let exhaustive = self.accel.engine == Engine::BruteForce;
         let query = &mut self.query;
         Some(visit(
             geometry,
             space,
-            &mut BottomLevel { geometry, query, instance: index, near, space, shear, exhaustive },
+            &mut BottomLevel { geometry, query, instance: index, near, space, t_max, shear, exhaustive },
         ))
     }
 }
@@ -126,7 +138,7 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for TopLevel<'_, U, P> {
 
     fn blocks(&mut self, items: Range<usize>) -> bool {
         let accel = self.accel;
-        let Ray { t_min, t_max, .. } = self.world.ray;
+        let (t_min, t_max) = (self.world.ray.t_min, self.t_max);
         let mut blocked = false;
         for &index in &accel.order[items] {
             let instance = &accel.instances[index as usize];
@@ -153,7 +165,8 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
     #[inline]
     fn admit(&self, t: f32, window: Window, t_max: f32) -> Option<f32> {
         let t_min = self.space.ray.t_min;
-        let raised = t.max(window.near).max(self.near);
+        // PERF: not `f32::max`, which looks after NaN: that fails the test below (bench render).
+        let raised = greater(greater(t, window.near), self.near);
         let valid = window.admits(t_min, t_max) && t >= t_min && raised <= t_max;
         valid.then_some(raised)
     }
@@ -170,31 +183,32 @@ impl<U: UserGeometry, P: TraversalProbe> BottomLevel<'_, '_, U, P> {
 
     fn user(&mut self, leaf: &LeafBox, t_max: f32) -> Option<Hit> {
         let window = leaf.window(self.space);
-        let ray = self.user_ray(leaf.prim, window, t_max)?;
-        let found = self.query.user.intersect(self.instance, leaf.prim, &ray)?;
+        if !self.asks(leaf.prim, window, t_max) {
+            return None;
+        }
+        let found = self.query.user.intersect(self.instance, leaf.prim, self.space.ray, t_max)?;
         self.hit(leaf.prim, found, window, t_max)
     }
 
     fn user_blocks(&mut self, leaf: &LeafBox) -> bool {
-        let Ray { t_min, t_max, .. } = self.space.ray;
+        let t_max = self.t_max;
         if U::FILTERS {
             return self.user(leaf, t_max).is_some();
         }
         let window = leaf.window(self.space);
-        let Some(ray) = self.user_ray(leaf.prim, window, t_max) else {
-            return false;
-        };
-        let occluded = self.query.user.occludes(self.instance, leaf.prim, &ray);
-        occluded && window.admits(t_min, t_max) && self.near <= t_max
+        self.asks(leaf.prim, window, t_max)
+            && self.query.user.occludes(self.instance, leaf.prim, self.space.ray, t_max)
+            && window.admits(self.space.ray.t_min, t_max)
+            && self.near <= t_max
     }
 
-    /// What the callback gets; `None` if the box already says no.
-    fn user_ray(&mut self, prim: u32, window: Window, t_max: f32) -> Option<Ray> {
-        if !self.exhaustive && !window.admits(self.space.ray.t_min, t_max) {
-            return None;
+    /// Whether the callback is asked; not if the box already says no.
+    fn asks(&mut self, prim: u32, window: Window, t_max: f32) -> bool {
+        let asks = self.exhaustive || window.admits(self.space.ray.t_min, t_max);
+        if asks {
+            self.query.probe.primitive(self.query.id, self.instance, prim);
         }
-        self.query.probe.primitive(self.query.id, self.instance, prim);
-        Some(Ray { t_max, ..self.space.ray })
+        asks
     }
 
     #[inline]
@@ -257,7 +271,7 @@ impl<U: UserGeometry, P: TraversalProbe> Leaves for BottomLevel<'_, '_, U, P> {
 
     #[inline]
     fn blocks(&mut self, items: Range<usize>) -> bool {
-        let t_max = self.space.ray.t_max;
+        let t_max = self.t_max;
         match &self.geometry.items {
             Items::Triangles { leaves, .. } => {
                 self.some(&leaves[items], |level, leaf| level.triangle(leaf, t_max).is_some())

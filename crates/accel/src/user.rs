@@ -6,17 +6,18 @@ use crate::{Hit, PrimitiveHit};
 /// Intersection routines of the boxes given to `AccelBuilder::user`.
 ///
 /// `ray` is in the instance's object space; its direction keeps the scale of the instance's transform, so `t` means
-/// the same as in the caller's space. `ray.t_max` is finite and shrinks as nearer hits are found.
+/// the same as in the caller's space. It ends at `t_max`, which is finite and shrinks as nearer hits are found, whatever
+/// `ray.t_max` says.
 pub trait UserGeometry {
     /// True if hits are put to [`UserGeometry::accepts`].
     const FILTERS: bool = false;
 
-    /// The smallest `t` in `[ray.t_min, ray.t_max]` at which `ray` meets the shape. It must not depend on `ray.t_max`
-    /// other than through that bound, or results depend on the order of traversal.
-    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit>;
+    /// The smallest `t` in `[ray.t_min, t_max]` at which `ray` meets the shape. It must not depend on `t_max` other than
+    /// through that bound, or results depend on the order of traversal.
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit>;
     /// Whether `intersect` would return anything; override it where that is cheaper.
-    fn occludes(&self, instance: u32, prim: u32, ray: &Ray) -> bool {
-        self.intersect(instance, prim, ray).is_some()
+    fn occludes(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> bool {
+        self.intersect(instance, prim, ray, t_max).is_some()
     }
     /// Whether a hit, on a triangle or a shape, counts: false in the holes of a cut-out texture. The ray goes on through
     /// what it is refused, and meets other things at the same `t`. Asked only if [`UserGeometry::FILTERS`].
@@ -31,7 +32,7 @@ pub trait UserGeometry {
 pub struct NoUserGeometry;
 
 impl UserGeometry for NoUserGeometry {
-    fn intersect(&self, _: u32, _: u32, _: &Ray) -> Option<PrimitiveHit> {
+    fn intersect(&self, _: u32, _: u32, _: &Ray, _: f32) -> Option<PrimitiveHit> {
         None
     }
 }

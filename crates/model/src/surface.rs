@@ -34,7 +34,7 @@ impl Surface {
     #[must_use]
     pub fn placed(self, m: &Transform, reverse: bool) -> Self {
         let (p, there) = m.point_with_error(self.p, self.p_error);
-        let (_, back) = m.inverse().point_with_error(p, Vector3::ZERO);
+        let (_, back) = m.point_back_with_error(p, Vector3::ZERO);
         // NUMERICS: twice, because the coefficients of both matrices are rounded too
         // (grazing_rays_never_meet_the_surface_they_leave).
         let p_error = there + m.reach(back * 2.0);

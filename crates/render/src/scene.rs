@@ -115,6 +115,10 @@ pub struct Scene {
     pub textures: Vec<Box<dyn Texture>>,
     /// Lights.
     pub lights: Vec<Box<dyn Light>>,
+    /// The lights that rays are cast to. PERF: asked for at every hit (bench render).
+    pub(crate) lamps: Vec<u32>,
+    /// The lights around the scene.
+    pub(crate) surroundings: Vec<u32>,
     /// Names of the lights.
     pub light_names: Vec<String>,
     /// The camera.
@@ -130,12 +134,14 @@ pub struct Scene {
 }
 
 impl UserGeometry for Scene {
-    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
         let placed = match self.targets[instance as usize] {
             Target::Mover(index) => &self.movers[index as usize],
             _ => &self.shapes[prim as usize],
         };
-        let hit = placed.shape.intersect(&placed.object_from_render.ray(ray))?;
+        let m = &placed.object_from_render;
+        let local = Ray { o: m.point(ray.o), d: m.vector(ray.d), t_min: ray.t_min, t_max, time: ray.time };
+        let hit = placed.shape.intersect(&local)?;
         Some(PrimitiveHit { t: hit.t, u: hit.u, v: hit.v })
     }
 }
@@ -150,8 +156,8 @@ struct Holed<'a> {
 impl UserGeometry for Holed<'_> {
     const FILTERS: bool = true;
 
-    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
-        self.cx.scene.intersect(instance, prim, ray)
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
+        self.cx.scene.intersect(instance, prim, ray, t_max)
     }
     fn accepts(&self, hit: &Hit) -> bool {
         !self.cx.scene.is_hole(self.cx, self.ray, hit)
@@ -242,8 +248,12 @@ impl Scene {
     pub fn material(&self, object: Id<Object>) -> &dyn Material {
         &*self.materials[self.object(object).material as usize]
     }
+    /// The lights that surround the scene: those with an ambient term, or seen by rays that left.
+    pub fn surroundings(&self) -> impl Iterator<Item = &dyn Light> {
+        self.surroundings.iter().map(|&i| &*self.lights[i as usize])
+    }
     /// Radiance along a ray that left the scene.
     pub fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
-        self.lights.iter().fold(Spectrum::BLACK, |sum, light| sum + light.escaped(basis, d))
+        self.surroundings().fold(Spectrum::BLACK, |sum, light| sum + light.escaped(basis, d))
     }
 }

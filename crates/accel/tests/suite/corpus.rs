@@ -126,9 +126,10 @@ impl Shape {
 pub(crate) struct Shapes(pub(crate) Vec<Vec<Shape>>);
 
 impl UserGeometry for Shapes {
-    fn intersect(&self, instance: u32, prim: u32, ray: &Ray) -> Option<PrimitiveHit> {
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
         let shape = &self.0[instance as usize][prim as usize];
-        let t = shape.roots(ray).into_iter().map(|t| t as f32).find(|t| ray.contains(*t))?;
+        let ray = Ray { t_max, ..*ray };
+        let t = shape.roots(&ray).into_iter().map(|t| t as f32).find(|t| ray.contains(*t))?;
         Some(PrimitiveHit { t, u: instance as f32, v: prim as f32 })
     }
 }

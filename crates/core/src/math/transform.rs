@@ -26,6 +26,33 @@ fn dot3(row: &[f32; 4], v: [f32; 3]) -> f32 {
     row[0] * v[0] + row[1] * v[1] + row[2] * v[2]
 }
 
+#[inline(always)]
+fn mapped(m: &Rows, only_moves: bool, p: Point3) -> Point3 {
+    if only_moves {
+        return Point3::new(p.x + m[0][3], p.y + m[1][3], p.z + m[2][3]);
+    }
+    let v = p.to_array();
+    let [x, y, z] = m.each_ref().map(|r| dot3(r, v) + r[3]);
+    Point3::new(x, y, z)
+}
+
+/// A position known to within `error` per coordinate, mapped, and the error of the result.
+#[inline(always)]
+fn mapped_with_error(m: &Rows, only_moves: bool, p: Point3, error: Vector3) -> (Point3, Vector3) {
+    if only_moves {
+        let q = mapped(m, true, p);
+        // One rounding of the sum.
+        return (q, error + (q - Point3::ZERO).abs() * gamma(1));
+    }
+    let (v, e) = (p.to_array(), error.to_array());
+    let [x, y, z] = m.each_ref().map(|r| {
+        let magnitude = (r[0] * v[0]).abs() + (r[1] * v[1]).abs() + (r[2] * v[2]).abs() + r[3].abs();
+        let carried = r[0].abs() * e[0] + r[1].abs() * e[1] + r[2].abs() * e[2];
+        gamma(4) * magnitude + (gamma(4) + 1.0) * carried
+    });
+    (mapped(m, false, p), Vector3::new(x, y, z))
+}
+
 impl Transform {
     /// The map that leaves everything where it is.
     pub const IDENTITY: Self = {
@@ -68,28 +95,17 @@ impl Transform {
     /// Maps a position.
     #[inline]
     pub fn point(&self, p: Point3) -> Point3 {
-        if self.only_moves {
-            return Point3::new(p.x + self.m[0][3], p.y + self.m[1][3], p.z + self.m[2][3]);
-        }
-        let v = p.to_array();
-        let [x, y, z] = self.m.each_ref().map(|r| dot3(r, v) + r[3]);
-        Point3::new(x, y, z)
+        mapped(&self.m, self.only_moves, p)
     }
     /// Maps a position known to within `error` per coordinate; also returns the error of the result.
     #[inline]
     pub fn point_with_error(&self, p: Point3, error: Vector3) -> (Point3, Vector3) {
-        if self.only_moves {
-            let q = self.point(p);
-            // One rounding of the sum.
-            return (q, error + (q - Point3::ZERO).abs() * gamma(1));
-        }
-        let (v, e) = (p.to_array(), error.to_array());
-        let [x, y, z] = self.m.each_ref().map(|r| {
-            let magnitude = (r[0] * v[0]).abs() + (r[1] * v[1]).abs() + (r[2] * v[2]).abs() + r[3].abs();
-            let carried = r[0].abs() * e[0] + r[1].abs() * e[1] + r[2].abs() * e[2];
-            gamma(4) * magnitude + (gamma(4) + 1.0) * carried
-        });
-        (self.point(p), Vector3::new(x, y, z))
+        mapped_with_error(&self.m, self.only_moves, p, error)
+    }
+    /// Maps a position back, as `inverse().point_with_error(p, error)` does.
+    #[inline]
+    pub fn point_back_with_error(&self, p: Point3, error: Vector3) -> (Point3, Vector3) {
+        mapped_with_error(&self.inverse, self.only_moves, p, error)
     }
     /// Maps a direction.
     #[inline]

@@ -38,6 +38,12 @@ impl Kind for Ambient {
 
 impl Light for Ambient {
     fn place(&mut self, _render_from_light: &Transform) {}
+    fn is_sampled(&self) -> bool {
+        false
+    }
+    fn surrounds(&self) -> bool {
+        true
+    }
     fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }

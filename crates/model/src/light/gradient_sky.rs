@@ -90,6 +90,12 @@ impl Light for GradientSky {
     fn place(&mut self, render_from_light: &Transform) {
         self.up = render_from_light.vector(self.up).normalize();
     }
+    fn is_sampled(&self) -> bool {
+        false
+    }
+    fn surrounds(&self) -> bool {
+        true
+    }
     fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }

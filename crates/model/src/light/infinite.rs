@@ -46,6 +46,12 @@ impl Kind for Infinite {
 
 impl Light for Infinite {
     fn place(&mut self, _render_from_light: &Transform) {}
+    fn is_sampled(&self) -> bool {
+        false
+    }
+    fn surrounds(&self) -> bool {
+        true
+    }
     fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         None
     }

@@ -44,6 +44,14 @@ pub trait Light: Debug + Send + Sync {
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
     fn sample(&self, basis: Basis, p: Point3, sampler: &Sampler) -> Option<LightSample>;
+    /// Whether [`Light::sample`] ever yields anything: rays are cast to the light.
+    fn is_sampled(&self) -> bool {
+        true
+    }
+    /// Whether it surrounds the scene: it has an ambient term or is seen by rays that left.
+    fn surrounds(&self) -> bool {
+        false
+    }
     /// The ambient term: unoccluded irradiance on a surface facing `n`, divided by pi.
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let _ = (basis, n);

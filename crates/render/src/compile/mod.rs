@@ -13,7 +13,7 @@ use durer_core::{
     glam::{DAffine3, DVec3},
     math::{Interval, Transform},
 };
-use durer_model::shape::Geometry;
+use durer_model::{light::Light, shape::Geometry};
 use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{Scene, View, integrator::Integrator};
@@ -99,11 +99,15 @@ pub fn compile(
         return None;
     }
     let has_holes = materials.iter().any(|m| m.has_holes());
-    let (lights, light_names) = lights.into_iter().unzip();
+    let (lights, light_names): (Vec<Box<dyn Light>>, _) = lights.into_iter().unzip();
+    let those =
+        |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
     Some(Scene {
         objects: placed.objects,
         materials,
         textures,
+        lamps: those(|light| light.is_sampled()),
+        surroundings: those(|light| light.surrounds()),
         lights,
         light_names,
         view,

@@ -116,8 +116,8 @@ impl Cast {
             Show::Albedo => Value::Radiance(s.bsdf.albedo()),
             Show::Shading => {
                 let mut radiance = s.emission + s.ambient(cx);
-                let lights = if s.bsdf.is_sharp() { 0 } else { cx.scene.lights.len() };
-                for light in 0..lights {
+                let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
+                for light in lamps.iter().map(|&light| light as usize) {
                     if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {
                         radiance += weight * sample.weight;
                     }

@@ -50,13 +50,13 @@ impl Shading {
         let coefficient = self.bsdf.ambient();
         let mut sum = Spectrum::BLACK;
         if !coefficient.is_black() {
-            for light in &cx.scene.lights {
+            for light in cx.scene.surroundings() {
                 sum += coefficient * light.ambient(cx.basis, n);
             }
         }
         if let Some(glossy) = self.bsdf.glossy(self.wo_local) {
             let d = self.frame.to_world(glossy.wi);
-            for light in &cx.scene.lights {
+            for light in cx.scene.surroundings() {
                 sum += glossy.weight * light.glossy_ambient(cx.basis, d, glossy.alpha);
             }
         }

@@ -117,8 +117,8 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.surface(id, s.object, hit, &s.surface);
         let mut radiance = s.emission + s.ambient(cx);
         self.probe.local(id, radiance);
-        let lights = if s.bsdf.is_sharp() { 0 } else { cx.scene.lights.len() };
-        for light in 0..lights {
+        let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
+        for light in lamps.iter().map(|&light| light as usize) {
             let sampler = ray.sampler.fork(LIGHT_BRANCH + light as u32);
             if let Some((weight, sample)) = s.light(cx, light, &sampler) {
                 radiance += weight * self.shadow(ray, &s, light, weight, &sample, id);
