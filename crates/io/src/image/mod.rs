@@ -5,7 +5,10 @@
 mod exr;
 mod jpeg;
 mod output;
+mod pfm;
 mod png;
+mod radiance;
+mod raster;
 
 use durer_scene::{AssetError, Image, Limits};
 
@@ -38,9 +41,15 @@ const SIGNATURES: &[Signature] = &[
     known(b"\x89PNG\r\n\x1a\n", "PNG", png::decode),
     known(b"\xff\xd8\xff", "JPEG", jpeg::decode),
     known(b"\x76\x2f\x31\x01", "OpenEXR", exr::decode),
-    foreign(b"#?RADIANCE", 0, "Radiance HDR"),
-    foreign(b"#?RGBE", 0, "Radiance HDR"),
-    foreign(b"BM", 0, "Windows bitmap (BMP)"),
+    known(b"#?RADIANCE", "Radiance HDR", radiance::decode),
+    known(b"#?RGBE", "Radiance HDR", radiance::decode),
+    known(b"BM", "Windows bitmap (BMP)", raster::decode_bmp),
+    known(b"PF\n", "portable float map (PFM)", pfm::decode),
+    known(b"PF ", "portable float map (PFM)", pfm::decode),
+    known(b"PF\r\n", "portable float map (PFM)", pfm::decode),
+    known(b"Pf\n", "portable float map (PFM)", pfm::decode),
+    known(b"Pf ", "portable float map (PFM)", pfm::decode),
+    known(b"Pf\r\n", "portable float map (PFM)", pfm::decode),
     foreign(b"GIF8", 0, "GIF"),
     foreign(b"WEBP", 8, "WebP"),
     foreign(b"\xabKTX 20\xbb\r\n\x1a\n", 0, "KTX 2"),
@@ -49,8 +58,6 @@ const SIGNATURES: &[Signature] = &[
     foreign(b"II*\0", 0, "TIFF"),
     foreign(b"MM\0*", 0, "TIFF"),
     foreign(b"ftypavif", 4, "AVIF"),
-    foreign(b"PF\n", 0, "portable float map (PFM)"),
-    foreign(b"Pf\n", 0, "portable float map (PFM)"),
 ];
 
 /// Encoded bytes, what messages call them, and what they may grow to.
@@ -66,6 +73,15 @@ impl Source<'_> {
     }
     fn unsupported(&self, reason: impl Into<String>) -> AssetError {
         AssetError::Unsupported { path: self.name.to_owned(), reason: reason.into() }
+    }
+    /// What a decoder of the `image` crate said about a `what`.
+    fn image_error(&self, what: &str, error: &image::ImageError) -> AssetError {
+        match error {
+            image::ImageError::Unsupported(e) => {
+                self.unsupported(format!("a {what} of a kind durer does not read: {e}"))
+            }
+            other => self.format_error(format!("damaged {what}: {other}")),
+        }
     }
     /// Complains about a header that promises nothing or too much. No compression we read shrinks the `sample_bytes`
     /// of decoded data by more than `ratio`, so a short file that promises more is damaged: nothing is allocated.
@@ -88,22 +104,19 @@ impl Source<'_> {
     }
 }
 
-/// Decodes a PNG, JPEG or OpenEXR file, told apart by content. `name` is what errors call it.
+/// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors
 /// If the format is another one, the data is damaged, or the image is larger than `limits` allow.
 pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetError> {
     let source = Source { bytes, name, limits };
     let starts = |s: &&Signature| bytes.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
-    const READ: &str = "durer reads PNG, JPEG and OpenEXR images";
+    const READ: &str = "durer reads PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
     match SIGNATURES.iter().find(starts) {
         Some(Signature { decode: Some(decode), .. }) => decode(&source),
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),
         None if bytes.is_empty() => Err(source.format_error("the file is empty")),
-        // Targa files have no signature; only the name gives them away.
-        None if name.to_lowercase().ends_with(".tga") => {
-            Err(source.unsupported(format!("a Targa (TGA) file; {READ}")))
-        }
+        None if raster::is_tga(&source) => raster::decode_tga(&source),
         None => Err(source.unsupported(format!("not an image of a known format; {READ}"))),
     }
 }
