@@ -16,9 +16,9 @@ use super::{
 };
 
 /// Rows of the tables of glossy lobes; entry i is for alpha `((i + 1) / n)²`. Narrow lobes need finer ones.
-const ROWS: [u32; 8] = [112, 56, 36, 24, 24, 24, 24, 24];
+const ROWS: [u32; 6] = [80, 40, 24, 24, 24, 24];
 /// Rows of the table of the ambient term.
-const AMBIENT_ROWS: u32 = 40;
+const AMBIENT_ROWS: u32 = 32;
 
 /// A small picture in latitude and longitude.
 #[derive(Debug)]

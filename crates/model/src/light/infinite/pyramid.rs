@@ -15,11 +15,8 @@ use super::{layout::Layout, panorama::Panorama};
 const ROWS: [u32; 2] = [64, 512];
 /// Rows of the coarsest cells.
 const COARSEST: u32 = 4;
-/// Cells are divided until their size is at most this share of their distance to the axis and the lobe's width ...
-const TOLERANCE: f32 = 0.3;
-/// ... and at most this angle.
-const LARGEST: f32 = 0.2;
-
+/// Cells are divided until their size is at most this share of their distance to the axis and the lobe's width.
+const TOLERANCE: f32 = 0.35;
 /// A weight on directions about an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Lobe {
@@ -48,6 +45,10 @@ impl Lobe {
             Self::Cosine => 1.0,
             Self::Glossy(alpha) => 2.0 * alpha,
         }
+    }
+    /// Largest angle of a cell that may stand for its parts: little of a narrow lobe lies far from its axis.
+    fn largest_cell(self) -> f32 {
+        if self.width() < 0.2 { 0.4 } else { 0.2 }
     }
 }
 
@@ -167,7 +168,7 @@ impl Pyramid {
             return;
         }
         let distance = (2.0 - 2.0 * c).max(0.0).sqrt();
-        let largest = (TOLERANCE * (lobe.width() + distance)).min(LARGEST);
+        let largest = (TOLERANCE * (lobe.width() + distance)).min(lobe.largest_cell());
         if *angle > largest && level > 0 {
             for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                 self.add(sum, lobe, axis, level - 1, (2 * x + dx, 2 * y + dy));
