@@ -4,7 +4,7 @@ mod assets_shared;
 use std::path::Path;
 
 use assets_shared::{files, folder};
-use durer_io::image::read;
+use durer_io::image::{ExrPicture, NamedChannel, read, write_exr};
 use durer_scene::{AssetError, Image, ImageData, Limits};
 
 fn load(path: &Path) -> Result<Image, AssetError> {
@@ -138,4 +138,41 @@ fn every_good_picture_of_the_corpus_opens_or_is_refused_in_words() {
         }
     }
     assert_eq!(refused, ["Rec709_YC.exr", "comp_b44.exr"], "only pictures with subsampled chroma");
+}
+
+#[test]
+fn exr_luminance_and_chroma_become_red_green_and_blue() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("chroma.exr");
+    let [r, g, b] = [2.0f32, 0.5, 0.25];
+    let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let channel = |name: &str, value: f32| NamedChannel { name: name.to_owned(), values: vec![value; 2] };
+    let channels = vec![channel("RY", (r - y) / y), channel("Y", y), channel("BY", (b - y) / y)];
+    write_exr(&path, &ExrPicture { width: 2, height: 1, channels, attributes: Vec::new() }).expect("written");
+    let image = load(&path).expect("a sound file");
+    assert_eq!(image.channels, 3);
+    for (got, expected) in floats(&image).iter().zip([r, g, b, r, g, b]) {
+        assert!((got - expected).abs() < 1e-6, "{got} {expected}");
+    }
+}
+
+#[test]
+fn exr_layers_and_channel_orders_do_not_matter() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases: [(&[&str], &[f32]); 4] = [
+        (&["B", "G", "R", "A", "Z"], &[3.0, 2.0, 1.0, 4.0]),
+        (&["diffuse.B", "diffuse.G", "diffuse.R", "depth"], &[3.0, 2.0, 1.0]),
+        (&["r", "g", "b"], &[1.0, 2.0, 3.0]),
+        (&["height"], &[1.0]),
+    ];
+    for (i, (names, expected)) in cases.into_iter().enumerate() {
+        let path = folder.path().join(format!("{i}.exr"));
+        let numbered = names.iter().zip(1u8..);
+        let channels = numbered
+            .map(|(name, value)| NamedChannel { name: (*name).to_owned(), values: vec![value.into()] })
+            .collect();
+        write_exr(&path, &ExrPicture { width: 1, height: 1, channels, attributes: Vec::new() })
+            .expect("written");
+        assert_eq!(floats(&load(&path).expect("a sound file")), expected, "{names:?}");
+    }
 }

@@ -60,6 +60,9 @@ const SIGNATURES: &[Signature] = &[
     foreign(b"ftypavif", 4, "AVIF"),
 ];
 
+/// Decoded bytes that any file may promise.
+const HARMLESS: u64 = 16 << 20;
+
 /// Encoded bytes, what messages call them, and what they may grow to.
 struct Source<'a> {
     bytes: &'a [u8],
@@ -94,7 +97,6 @@ impl Source<'_> {
             let reason = format!("{width} x {height} pixels, but the limit is {}", self.limits.image_pixels);
             return Err(AssetError::Limits { path: self.name.to_owned(), reason });
         }
-        const HARMLESS: u64 = 16 << 20;
         let most = (self.bytes.len() as u64).saturating_mul(ratio).max(HARMLESS);
         if pixels.saturating_mul(sample_bytes) > most {
             let reason = format!("{width} x {height} pixels cannot be stored in {} bytes", self.bytes.len());
