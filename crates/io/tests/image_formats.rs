@@ -53,7 +53,7 @@ fn plain_and_run_length_radiance_pixels_are_read_alike() {
 fn damaged_radiance_files_are_refused_with_a_reason() {
     let header = |format: &str, size: &str| format!("#?RADIANCE\nFORMAT=32-bit_rle_{format}\n\n{size}\n");
     for (header, word) in [
-        (header("rgbe", "-Y 1 +X 8"), "damaged Radiance"),
+        (header("rgbe", "-Y 1 +X 8"), "damaged Radiance HDR file: the file ends too early"),
         (header("xyze", "-Y 1 +X 1"), "does not read"),
         (header("rgbe", "+X 1 -Y 1"), "Orientation"),
         (header("rgbe", "-Y 60000 +X 4000"), "cannot be stored"),
@@ -175,4 +175,45 @@ fn exr_layers_and_channel_orders_do_not_matter() {
             .expect("written");
         assert_eq!(floats(&load(&path).expect("a sound file")), expected, "{names:?}");
     }
+}
+
+/// The headers of an OpenEXR file with so many parts of one channel of floats, and nothing after them.
+fn exr_headers(parts: u32, [width, height]: [i32; 2]) -> Vec<u8> {
+    let text = |t: &str| [t.as_bytes(), b"\0"].concat();
+    let attribute = |name: &str, kind: &str, data: &[u8]| {
+        [text(name), text(kind), (data.len() as u32).to_le_bytes().to_vec(), data.to_vec()].concat()
+    };
+    let numbers = |n: &[i32]| n.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    let window = numbers(&[0, 0, width - 1, height - 1]);
+    let channels = [text("Y"), numbers(&[2, 0, 1, 1]), vec![0]].concat();
+    let one = 1.0f32.to_le_bytes();
+    let header = |part: u32| {
+        [
+            attribute("channels", "chlist", &channels),
+            attribute("compression", "compression", &[3]),
+            attribute("dataWindow", "box2i", &window),
+            attribute("displayWindow", "box2i", &window),
+            attribute("lineOrder", "lineOrder", &[0]),
+            attribute("pixelAspectRatio", "float", &one),
+            attribute("screenWindowCenter", "v2f", &[0; 8]),
+            attribute("screenWindowWidth", "float", &one),
+            attribute("name", "string", part.to_string().as_bytes()),
+            attribute("type", "string", b"scanlineimage"),
+            attribute("chunkCount", "int", &numbers(&[(height + 15) / 16])),
+            vec![0],
+        ]
+        .concat()
+    };
+    let headers = (0..parts).flat_map(header);
+    [0x76, 0x2f, 0x31, 0x01, 2, 0x10, 0, 0].into_iter().chain(headers).chain([0]).collect()
+}
+
+#[test]
+fn many_harmless_parts_are_not_harmless_together() {
+    let said = |parts| {
+        let file = exr_headers(parts, [2000, 1000]);
+        read(&file, "a.exr", Limits::default()).expect_err("no pixels").to_string()
+    };
+    assert!(said(1).contains("ends too early"), "{}", said(1));
+    assert!(said(100).contains("100 parts cannot be stored"), "{}", said(100));
 }

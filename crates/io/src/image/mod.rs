@@ -83,6 +83,9 @@ impl Source<'_> {
             image::ImageError::Unsupported(e) => {
                 self.unsupported(format!("a {what} of a kind durer does not read: {e}"))
             }
+            image::ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
+                self.format_error(format!("damaged {what}: the file ends too early"))
+            }
             other => self.format_error(format!("damaged {what}: {other}")),
         }
     }

@@ -1,5 +1,5 @@
 //! OpenEXR in: half, float and integer samples, scan lines and tiles, the largest level, every compression of
-//! OpenEXR 2. Deep and chroma-subsampled data are refused.
+//! OpenEXR 2, luminance with chroma. Deep and chroma-subsampled data are refused.
 use std::io::Cursor;
 
 use durer_scene::{AssetError, Image, ImageData};
@@ -88,7 +88,12 @@ fn layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
 }
 
 fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
-    let fail = |e: exr::error::Error| source.format_error(format!("damaged OpenEXR file: {e}"));
+    let fail = |e: exr::error::Error| match e.to_string().as_str() {
+        "invalid: reference to missing bytes" => {
+            source.format_error("damaged OpenEXR file: it ends too early, or refers beyond its end")
+        }
+        said => source.format_error(format!("damaged OpenEXR file: {said}")),
+    };
     let meta = MetaData::read_from_buffered(Cursor::new(source.bytes), false).map_err(fail)?;
     let mut decoded = 0u64;
     for header in &meta.headers {
