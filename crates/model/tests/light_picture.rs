@@ -183,6 +183,40 @@ fn a_bright_pixel_stands_where_its_layout_has_it() {
 }
 
 #[test]
+fn a_sun_of_one_pixel_lights_like_a_distant_light() {
+    let (x, y) = (77, 60);
+    let hit = |u: f64, v: f64| (u * 512.0) as u32 == x && (v * 256.0) as u32 == y;
+    let sky = light(picture(512, 256, |u, v| [if hit(u, v) { 1e5 } else { 0.0 }; 3]), Params::new());
+    let d = direction((f64::from(x) + 0.5) / 512.0, (f64::from(y) + 0.5) / 256.0);
+    let edge = |i: u32| (f64::from(i) / 256.0 * PI).cos();
+    let facing = 1e5 * (edge(y) - edge(y + 1)) * TAU / 512.0 / PI;
+    let mut random = Random::new(12);
+    for _ in 0..300 {
+        let n = random.direction();
+        // Tables round off the edge of the shadow.
+        if n.dot(d).abs() > 0.15 {
+            let expected = facing * n.dot(d).max(0.0);
+            assert!(near(ambient(&*sky, n), [expected; 3], 0.01 * facing), "{n}: {:?}", ambient(&*sky, n));
+        }
+    }
+}
+
+#[test]
+fn the_edges_of_an_equal_area_picture_are_below_the_horizon() {
+    // r = sqrt(1 - |z|) = 1/2 and no azimuth: half way out the map of the upper half, and on the right edge of the picture
+    // half way from its middle to a corner in the lower half.
+    let spots = |x: f64, y: f64| {
+        let inner = (x - 0.75).abs() < 0.04 && (y - 0.5).abs() < 0.04;
+        let edge = x > 0.96 && ((y - 0.5).abs() - 0.25).abs() < 0.04;
+        [f64::from(u8::from(inner)), f64::from(u8::from(edge)), 0.0]
+    };
+    let sky = light(picture(64, 64, spots), Params::new());
+    let out = (1.0f64 - 0.75 * 0.75).sqrt();
+    assert!(near(escaped(&*sky, DVec3::new(out, 0.0, 0.75)), [1.0, 0.0, 0.0], 1e-6));
+    assert!(near(escaped(&*sky, DVec3::new(out, 0.0, -0.75)), [0.0, 1.0, 0.0], 1e-6));
+}
+
+#[test]
 fn no_light_is_lost_by_blurring() {
     // Odd sizes, a sun of 1 pixel, and one at a pole.
     let sun = |x: f64, y: f64| if (x - 0.3).abs() < 0.0025 && (y - 0.2).abs() < 0.006 { 1e4 } else { 0.1 };
