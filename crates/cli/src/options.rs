@@ -1,5 +1,5 @@
 //! Options that several commands share, what they mean to the library, and how to say them again.
-use std::str::FromStr;
+use std::{path::PathBuf, str::FromStr};
 
 use clap::{
     Args,
@@ -22,6 +22,10 @@ pub(crate) struct SceneOptions {
     /// Camera, by name or index [default: the first, or one that frames everything].
     #[arg(long, value_name = "NAME_OR_INDEX")]
     camera: Option<String>,
+    /// A picture that surrounds the scene and lights it instead of its own sky: EXR, HDR, PFM, PNG or JPEG, twice as
+    /// wide as high or, as pbrt-v4 has it, square. Its top is +y, its middle +x.
+    #[arg(long, value_name = "FILE")]
+    env: Option<PathBuf>,
     /// The moment of the picture [default: 0].
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     time_at: Option<f32>,
@@ -106,6 +110,7 @@ impl SceneOptions {
     pub(crate) fn wishes(&self) -> Options {
         Options {
             camera: self.camera.clone(),
+            environment: self.env.clone(),
             time: self.time_at.unwrap_or(0.0),
             shutter: self.shutter,
             missing: if self.lenient { Missing::Warn } else { Missing::Refuse },
@@ -139,7 +144,7 @@ impl SampleOptions {
     /// The words after `durer trace` that replay a sample of a render with these options. Names every field, so that a
     /// new option cannot be forgotten here.
     pub(crate) fn replay(&self, pixel: [u32; 2], sample: u32) -> String {
-        let SceneOptions { scene, camera, time_at, shutter, lenient } = &self.scene;
+        let SceneOptions { scene, camera, env, time_at, shutter, lenient } = &self.scene;
         // A crop changes no sample.
         let FilmOptions { width, height, scale, spp, crop: _, seed } = &self.film;
         let TransportOptions { integrator, show, max_depth, min_contribution, accel } = &self.transport;
@@ -148,6 +153,7 @@ impl SampleOptions {
             words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
         };
         say("camera", camera.clone());
+        say("env", env.as_ref().map(|f| f.display().to_string()));
         say("time-at", time_at.map(|v| v.to_string()));
         say("shutter", shutter.map(|s| format!("{},{}", s.min, s.max)));
         say("width", width.map(|v| v.to_string()));

@@ -23,6 +23,7 @@ Examples:
   durer render room.glb -o room.png -o room.exr  one render, two files
   durer render room.pbrt --scale 0.25 --spp 4    a quick look
   durer render room.glb --integrator cast --show depth -o depth.exr
+  durer render car.glb --env studio.hdr          lit by a picture all around
   durer render room.glb --crop 100,50,200,120 --spp 256
   durer render --stats=json | jq .rays
 

@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 pub mod builtin;
+mod environment;
 mod options;
 mod prepare;
 

@@ -1,4 +1,6 @@
 //! What a user may ask for beyond what the scene says.
+use std::path::PathBuf;
+
 use durer_accel::Engine;
 use durer_core::math::Interval;
 use durer_render::{film::Tile, integrator::Show};
@@ -25,6 +27,9 @@ pub struct Options {
     pub min_contribution: Option<f32>,
     /// Camera, by name or index.
     pub camera: Option<String>,
+    /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.
+    /// Its file may lie anywhere. Its top is +y, its middle +x.
+    pub environment: Option<PathBuf>,
     /// The part of the picture that is rendered.
     pub crop: Option<Tile>,
     /// The moment of the picture, in seconds.

@@ -9,7 +9,7 @@ use durer_render::{
 };
 use durer_scene::{Data, Diagnostics, Location, Node, Param, SceneDesc, ValueType};
 
-use crate::Options;
+use crate::{Options, environment};
 
 /// Pixels of a picture whose size nobody asked for.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
@@ -45,6 +45,14 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     if diagnostics.has_errors() {
         return None;
     }
+    let lit;
+    let desc = match &options.environment {
+        Some(file) => {
+            lit = environment::surround(desc, file, assets, diagnostics)?;
+            &lit
+        }
+        None => &*desc,
+    };
     if desc.shapes.is_empty() {
         diagnostics.warning(Location::None, "the scene has no shapes: only its sky can be seen");
     }

@@ -21,7 +21,7 @@ fn every_help_has_examples() {
 fn render_helps_with_the_words_of_the_contract() {
     let help = Place::new().done("render --help").stdout;
     let words = "--integrator --show --width --height --scale --spp --max-depth --min-contribution --accel --camera \
-                 --exposure --crop --time-at --shutter --tonemap --stats --lenient --seed --threads --quiet -v -o";
+                 --env --exposure --crop --time-at --shutter --tonemap --stats --lenient --seed --threads --quiet -v -o";
     words.split_whitespace().for_each(|word| assert!(help.contains(word), "{word}"));
 }
 

@@ -5,7 +5,10 @@
 mod exr;
 mod jpeg;
 mod output;
+mod pfm;
 mod png;
+mod radiance;
+mod raster;
 
 use durer_scene::{AssetError, Image, Limits};
 
@@ -38,9 +41,15 @@ const SIGNATURES: &[Signature] = &[
     known(b"\x89PNG\r\n\x1a\n", "PNG", png::decode),
     known(b"\xff\xd8\xff", "JPEG", jpeg::decode),
     known(b"\x76\x2f\x31\x01", "OpenEXR", exr::decode),
-    foreign(b"#?RADIANCE", 0, "Radiance HDR"),
-    foreign(b"#?RGBE", 0, "Radiance HDR"),
-    foreign(b"BM", 0, "Windows bitmap (BMP)"),
+    known(b"#?RADIANCE", "Radiance HDR", radiance::decode),
+    known(b"#?RGBE", "Radiance HDR", radiance::decode),
+    known(b"BM", "Windows bitmap (BMP)", raster::decode_bmp),
+    known(b"PF\n", "portable float map (PFM)", pfm::decode),
+    known(b"PF ", "portable float map (PFM)", pfm::decode),
+    known(b"PF\r\n", "portable float map (PFM)", pfm::decode),
+    known(b"Pf\n", "portable float map (PFM)", pfm::decode),
+    known(b"Pf ", "portable float map (PFM)", pfm::decode),
+    known(b"Pf\r\n", "portable float map (PFM)", pfm::decode),
     foreign(b"GIF8", 0, "GIF"),
     foreign(b"WEBP", 8, "WebP"),
     foreign(b"\xabKTX 20\xbb\r\n\x1a\n", 0, "KTX 2"),
@@ -49,9 +58,10 @@ const SIGNATURES: &[Signature] = &[
     foreign(b"II*\0", 0, "TIFF"),
     foreign(b"MM\0*", 0, "TIFF"),
     foreign(b"ftypavif", 4, "AVIF"),
-    foreign(b"PF\n", 0, "portable float map (PFM)"),
-    foreign(b"Pf\n", 0, "portable float map (PFM)"),
 ];
+
+/// Decoded bytes that any file may promise.
+const HARMLESS: u64 = 16 << 20;
 
 /// Encoded bytes, what messages call them, and what they may grow to.
 struct Source<'a> {
@@ -67,6 +77,18 @@ impl Source<'_> {
     fn unsupported(&self, reason: impl Into<String>) -> AssetError {
         AssetError::Unsupported { path: self.name.to_owned(), reason: reason.into() }
     }
+    /// What a decoder of the `image` crate said about a `what`.
+    fn image_error(&self, what: &str, error: &image::ImageError) -> AssetError {
+        match error {
+            image::ImageError::Unsupported(e) => {
+                self.unsupported(format!("a {what} of a kind durer does not read: {e}"))
+            }
+            image::ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
+                self.format_error(format!("damaged {what}: the file ends too early"))
+            }
+            other => self.format_error(format!("damaged {what}: {other}")),
+        }
+    }
     /// Complains about a header that promises nothing or too much. No compression we read shrinks the `sample_bytes`
     /// of decoded data by more than `ratio`, so a short file that promises more is damaged: nothing is allocated.
     fn check_size(&self, width: u64, height: u64, sample_bytes: u64, ratio: u64) -> Result<(), AssetError> {
@@ -78,7 +100,6 @@ impl Source<'_> {
             let reason = format!("{width} x {height} pixels, but the limit is {}", self.limits.image_pixels);
             return Err(AssetError::Limits { path: self.name.to_owned(), reason });
         }
-        const HARMLESS: u64 = 16 << 20;
         let most = (self.bytes.len() as u64).saturating_mul(ratio).max(HARMLESS);
         if pixels.saturating_mul(sample_bytes) > most {
             let reason = format!("{width} x {height} pixels cannot be stored in {} bytes", self.bytes.len());
@@ -88,22 +109,19 @@ impl Source<'_> {
     }
 }
 
-/// Decodes a PNG, JPEG or OpenEXR file, told apart by content. `name` is what errors call it.
+/// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors
 /// If the format is another one, the data is damaged, or the image is larger than `limits` allow.
 pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetError> {
     let source = Source { bytes, name, limits };
     let starts = |s: &&Signature| bytes.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
-    const READ: &str = "durer reads PNG, JPEG and OpenEXR images";
+    const READ: &str = "durer reads PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
     match SIGNATURES.iter().find(starts) {
         Some(Signature { decode: Some(decode), .. }) => decode(&source),
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),
         None if bytes.is_empty() => Err(source.format_error("the file is empty")),
-        // Targa files have no signature; only the name gives them away.
-        None if name.to_lowercase().ends_with(".tga") => {
-            Err(source.unsupported(format!("a Targa (TGA) file; {READ}")))
-        }
+        None if raster::is_tga(&source) => raster::decode_tga(&source),
         None => Err(source.unsupported(format!("not an image of a known format; {READ}"))),
     }
 }

@@ -15,6 +15,11 @@ const BEST_RATIO: u64 = 1040;
 /// Reads a PNG file; palettes become RGB, transparency chunks alpha, depths below 8 bits 8 bits.
 pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     let fail = |e: png::DecodingError| source.format_error(format!("damaged PNG: {e}"));
+    if source.bytes.get(12..16) == Some(b"CgBI") {
+        return Err(
+            source.format_error("a PNG file in Apple's own form (CgBI); convert it to a standard PNG file")
+        );
+    }
     // Sizes are checked below, against the length of the file too; the crate's own limit would be arbitrary.
     let mut decoder = Decoder::new_with_limits(Cursor::new(source.bytes), Limits { bytes: 1 << 34 });
     decoder.set_transformations(Transformations::EXPAND);

@@ -83,6 +83,9 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
 /// Words of pbrt-v4 that are known but not built yet; `diffuse` is its area light.
 pub const NOT_YET: &[&str] = &["diffuse", "goniometric", "projection"];
 
+/// Lights that are all around: what a picture of the surroundings replaces.
+pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky"];
+
 /// Factor on the intensity of lights without extent.
 const INTENSITY_SCALE: ParamSpec =
     ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY);

@@ -5,7 +5,7 @@
 
 mod checkerboard;
 mod constant;
-mod imagemap;
+pub(crate) mod imagemap;
 mod mapping;
 mod scale;
 mod value;

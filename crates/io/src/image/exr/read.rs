@@ -1,5 +1,5 @@
 //! OpenEXR in: half, float and integer samples, scan lines and tiles, the largest level, every compression of
-//! OpenEXR 2. Deep and chroma-subsampled data are refused.
+//! OpenEXR 2, luminance with chroma. Deep and chroma-subsampled data are refused.
 use std::io::Cursor;
 
 use durer_scene::{AssetError, Image, ImageData};
@@ -10,7 +10,10 @@ use exr::{
     },
 };
 
-use super::{super::Source, NamedChannel};
+use super::{
+    super::{HARMLESS, Source},
+    NamedChannel,
+};
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
@@ -25,20 +28,36 @@ pub(in super::super) fn decode(source: &Source<'_>) -> Result<Image, AssetError>
     let Some((layer, picked)) = pick else {
         return Err(source.unsupported("an OpenEXR file without red, green and blue or luminance"));
     };
-    let planes: Vec<Vec<f32>> = picked.iter().map(|c| floats(&c.sample_data)).collect();
     let size = |v: usize| u32::try_from(v).map_err(|e| source.format_error(e));
     let (width, height) = (size(layer.size.width())?, size(layer.size.height())?);
-    let pixels = layer.size.area();
-    if planes.iter().any(|p| p.len() != pixels) {
+    let (pixels, channels) = (layer.size.area(), picked.list.len());
+    if picked.list.iter().any(|c| c.sample_data.len() != pixels) {
         return Err(source.format_error("damaged OpenEXR file: samples are missing"));
     }
-    let mut data = vec![0.0f32; pixels * planes.len()];
-    for (i, plane) in planes.iter().enumerate() {
-        for (to, from) in data.iter_mut().skip(i).step_by(planes.len()).zip(plane) {
-            *to = *from;
+    let mut data = vec![0.0f32; pixels * channels];
+    for (i, channel) in picked.list.iter().enumerate() {
+        let places = data.iter_mut().skip(i).step_by(channels);
+        match &channel.sample_data {
+            FlatSamples::F16(v) => places.zip(v).for_each(|(to, from)| *to = from.to_f32()),
+            FlatSamples::F32(v) => places.zip(v).for_each(|(to, from)| *to = *from),
+            FlatSamples::U32(v) => places.zip(v).for_each(|(to, from)| *to = *from as f32),
         }
     }
-    Ok(Image { width, height, channels: planes.len() as u32, data: ImageData::F32(data) })
+    if picked.is_chroma {
+        for pixel in data.chunks_exact_mut(channels) {
+            if let [first, second, third, ..] = pixel {
+                [*first, *second, *third] = rgb_of_chroma([*first, *second, *third]);
+            }
+        }
+    }
+    Ok(Image { width, height, channels: channels as u32, data: ImageData::F32(data) })
+}
+
+/// Red, green and blue of luminance Y and the chroma `RY = (R - Y) / Y` and `BY = (B - Y) / Y`, with the luminance weights
+/// of Rec. 709 primaries ("Technical Introduction to OpenEXR", luminance/chroma images).
+fn rgb_of_chroma([y, ry, by]: [f32; 3]) -> [f32; 3] {
+    let (r, b) = ((ry + 1.0) * y, (by + 1.0) * y);
+    [r, (y - 0.2126 * r - 0.0722 * b) / 0.7152, b]
 }
 
 /// All channels of an OpenEXR file as floats, in the order stored: for tests and tools that compare bits. Channels of
@@ -69,10 +88,21 @@ fn layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
 }
 
 fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
-    let fail = |e: exr::error::Error| source.format_error(format!("damaged OpenEXR file: {e}"));
+    let fail = |e: exr::error::Error| match e.to_string().as_str() {
+        "invalid: reference to missing bytes" => {
+            source.format_error("damaged OpenEXR file: it ends too early, or refers beyond its end")
+        }
+        said => source.format_error(format!("damaged OpenEXR file: {said}")),
+    };
     let meta = MetaData::read_from_buffered(Cursor::new(source.bytes), false).map_err(fail)?;
+    let mut decoded = 0u64;
     for header in &meta.headers {
-        check_header(source, header)?;
+        decoded = decoded.saturating_add(check_header(source, header)?);
+    }
+    // Each part alone may be harmless, but a short file can promise thousands of them.
+    if decoded > (source.bytes.len() as u64).saturating_mul(BEST_RATIO).max(HARMLESS) {
+        let reason = format!("{} parts cannot be stored in {} bytes", meta.headers.len(), source.bytes.len());
+        return Err(source.format_error(format!("damaged OpenEXR file: {reason}")));
     }
     // One thread: a texture is decoded by whoever asked for it, and damaged blocks must not die in foreign threads.
     let image = read()
@@ -87,7 +117,8 @@ fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
     Ok(image.layer_data.into_vec())
 }
 
-fn check_header(source: &Source<'_>, header: &Header) -> Result<(), AssetError> {
+/// Bytes that the part takes once it is decoded.
+fn check_header(source: &Source<'_>, header: &Header) -> Result<u64, AssetError> {
     if header.deep {
         return Err(source.unsupported("an OpenEXR file with deep data"));
     }
@@ -96,13 +127,21 @@ fn check_header(source: &Source<'_>, header: &Header) -> Result<(), AssetError> 
         let reason = "an OpenEXR file with subsampled channels (luminance and chroma); convert it to RGB";
         return Err(source.unsupported(reason));
     }
-    let bytes = channels.iter().map(|c| if c.sample_type == SampleType::F16 { 2 } else { 4 }).sum();
+    let bytes: u64 = channels.iter().map(|c| if c.sample_type == SampleType::F16 { 2 } else { 4 }).sum();
     let size = header.layer_size;
-    source.check_size(size.width() as u64, size.height() as u64, bytes, BEST_RATIO)
+    source.check_size(size.width() as u64, size.height() as u64, bytes, BEST_RATIO)?;
+    Ok((size.area() as u64).saturating_mul(bytes))
 }
 
-/// Red, green, blue and alpha if there is one; luminance and alpha; or the only channel.
-fn colour_channels(layer: &FlatLayer) -> Option<Vec<&AnyChannel<FlatSamples>>> {
+/// The channels that make a picture.
+struct Picked<'a> {
+    list: Vec<&'a AnyChannel<FlatSamples>>,
+    /// Luminance and chroma instead of red, green and blue.
+    is_chroma: bool,
+}
+
+/// Red, green, blue and alpha if there is one; luminance, chroma and alpha; luminance and alpha; or the only channel.
+fn colour_channels(layer: &FlatLayer) -> Option<Picked<'_>> {
     let list = &layer.channel_data.list;
     // "diffuse.R" belongs to the sub-layer "diffuse"; the unnamed one comes first.
     let mut prefixes: Vec<String> = vec![String::new()];
@@ -116,15 +155,15 @@ fn colour_channels(layer: &FlatLayer) -> Option<Vec<&AnyChannel<FlatSamples>>> {
             let wanted = format!("{prefix}{word}");
             list.iter().find(|c| c.name.to_string().eq_ignore_ascii_case(&wanted))
         };
-        for words in [&["R", "G", "B"][..], &["Y"][..]] {
+        for words in [&["R", "G", "B"][..], &["Y", "RY", "BY"][..], &["Y"][..]] {
             if let Some(mut found) = words.iter().map(|w| find(w)).collect::<Option<Vec<_>>>() {
                 found.extend(find("A"));
-                return Some(found);
+                return Some(Picked { list: found, is_chroma: words.contains(&"RY") });
             }
         }
     }
     match list.as_slice() {
-        [only] => Some(vec![only]),
+        [only] => Some(Picked { list: vec![only], is_chroma: false }),
         _ => None,
     }
 }

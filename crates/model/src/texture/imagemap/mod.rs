@@ -4,7 +4,7 @@
 //! `[i / w, (i + 1) / w)`. Texels are decoded to linear values before they are interpolated (Physically Based Rendering,
 //! 4th edition, section 10.4.1). No mip maps: distant images need more samples.
 mod srgb;
-mod texels;
+pub(crate) mod texels;
 mod wrap;
 
 use std::sync::Arc;

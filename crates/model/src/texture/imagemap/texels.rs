@@ -7,7 +7,7 @@ use super::srgb;
 
 /// An image with the meaning of its values.
 #[derive(Clone, Debug)]
-pub(super) struct Texels {
+pub(crate) struct Texels {
     image: Arc<Image>,
     /// Linear value of every byte, for images of 8 bits.
     bytes: [f32; 256],
@@ -17,20 +17,20 @@ pub(super) struct Texels {
 
 impl Texels {
     /// `encoded`: whether colours (never alpha) are sRGB-encoded.
-    pub(super) fn new(image: Arc<Image>, encoded: bool) -> Self {
+    pub(crate) fn new(image: Arc<Image>, encoded: bool) -> Self {
         let bytes = if encoded { srgb::table() } else { std::array::from_fn(|byte| byte as f32 / 255.0) };
         Self { image, bytes, encoded }
     }
     /// Texels per row.
-    pub(super) fn width(&self) -> u32 {
+    pub(crate) fn width(&self) -> u32 {
         self.image.width
     }
     /// Rows.
-    pub(super) fn height(&self) -> u32 {
+    pub(crate) fn height(&self) -> u32 {
         self.image.height
     }
     /// Linear RGBA of column `x` and row `y`, both inside; grey is spread over RGB, missing alpha is 1.
-    pub(super) fn rgba(&self, x: u32, y: u32) -> [f32; 4] {
+    pub(crate) fn rgba(&self, x: u32, y: u32) -> [f32; 4] {
         let channels = self.image.channels as usize;
         let first = (y as usize * self.image.width as usize + x as usize) * channels;
         let color = |channel: usize| self.color(first + channel);

@@ -1,0 +1,76 @@
+//! A picture around everything as matte and glossy surfaces see it, tabulated when the light is built.
+//!
+//! Ambient: the cosine-weighted mean over the hemisphere about the normal (irradiance / pi). Glossy: the same lobes as the
+//! gradient sky (`sky_blur.rs`), at nodes over the square root of alpha. Tables have
+//! rows of latitude: bilinear lookups see no edges there, as they would in octahedral maps.
+use durer_core::math::{
+    Vector3,
+    float::{lerp, sqr},
+};
+use rayon::prelude::*;
+
+use super::{
+    layout::Layout,
+    panorama::{Panorama, weighted},
+    pyramid::{Lobe, Pyramid},
+};
+
+/// Rows of the tables of glossy lobes; entry i is for alpha `((i + 1) / n)²`. Narrow lobes need finer ones.
+const ROWS: [u32; 6] = [80, 40, 24, 24, 24, 24];
+/// Rows of the table of the ambient term.
+const AMBIENT_ROWS: u32 = 32;
+
+/// A small picture in latitude and longitude.
+#[derive(Debug)]
+struct Table {
+    size: [u32; 2],
+    texels: Vec<[f32; 3]>,
+}
+
+impl Table {
+    const LAYOUT: Layout = Layout::LatitudeLongitude;
+
+    fn of(pyramid: &Pyramid, lobe: Lobe, rows: u32) -> Self {
+        let columns = 2 * rows;
+        let place = |i: u32, n: u32| (i as f32 + 0.5) / n as f32;
+        let texel = |i: u32| {
+            let axis = Self::LAYOUT.direction([place(i % columns, columns), place(i / columns, rows)]);
+            pyramid.mean(lobe, axis)
+        };
+        Self { size: [columns, rows], texels: (0..columns * rows).into_par_iter().map(texel).collect() }
+    }
+    fn at(&self, d: Vector3) -> [f32; 3] {
+        let corners = Self::LAYOUT.corners(Self::LAYOUT.uv(d), self.size);
+        weighted(corners, |x, y| self.texels[(y * self.size[0] + x) as usize])
+    }
+}
+
+/// The blurred picture.
+#[derive(Debug)]
+pub(super) struct Blur {
+    ambient: Table,
+    glossy: [Table; ROWS.len()],
+}
+
+impl Blur {
+    /// Blurs the picture.
+    pub(super) fn of(pyramid: &Pyramid) -> Self {
+        let alpha = |i: usize| sqr((i + 1) as f32 / ROWS.len() as f32);
+        Self {
+            ambient: Table::of(pyramid, Lobe::Cosine, AMBIENT_ROWS),
+            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), ROWS[i])),
+        }
+    }
+    /// Mean over the cosine lobe about unit direction `n`.
+    pub(super) fn ambient(&self, n: Vector3) -> [f32; 3] {
+        self.ambient.at(n)
+    }
+    /// Mean over the glossy lobe of roughness `alpha` in `[0, 1]` about unit direction `d`.
+    pub(super) fn glossy(&self, picture: &Panorama, d: Vector3, alpha: f32) -> [f32; 3] {
+        let x = alpha.clamp(0.0, 1.0).sqrt() * ROWS.len() as f32;
+        let i = (x as usize).min(ROWS.len() - 1);
+        let sharp = if i == 0 { picture.seen(d) } else { self.glossy[i - 1].at(d) };
+        let soft = self.glossy[i].at(d);
+        std::array::from_fn(|c| lerp(x - i as f32, sharp[c], soft[c]))
+    }
+}

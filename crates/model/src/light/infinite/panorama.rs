@@ -1,0 +1,69 @@
+//! A picture around everything: pixels at full resolution, as rays that leave the scene see them.
+use std::sync::Arc;
+
+use durer_core::math::Vector3;
+use durer_scene::{Image, ImageData};
+use rayon::prelude::*;
+
+use super::layout::Layout;
+use crate::texture::imagemap::texels::Texels;
+
+/// A picture with its layout.
+#[derive(Debug)]
+pub(super) struct Panorama {
+    texels: Texels,
+    layout: Layout,
+}
+
+/// Why a picture is no light.
+pub(super) fn unfit(image: &Image) -> Option<String> {
+    let stored = u64::from(image.width) * u64::from(image.height) * u64::from(image.channels);
+    let values = match &image.data {
+        ImageData::U8(v) => v.len(),
+        ImageData::U16(v) => v.len(),
+        ImageData::F32(v) => v.len(),
+    };
+    if stored == 0 || image.channels > 4 || stored != values as u64 {
+        return Some(format!("the image is not sound: {values} values for {stored}"));
+    }
+    let ImageData::F32(values) = &image.data else { return None };
+    let channels = image.channels as usize;
+    let colors = if channels.is_multiple_of(2) { channels - 1 } else { channels };
+    let is_bad = |p: &&[f32]| p.iter().take(colors).any(|v| !v.is_finite());
+    let bad = values.par_chunks(channels).filter(is_bad).count();
+    (bad > 0).then(|| {
+        let pixels = if bad == 1 { "pixel is".to_owned() } else { "pixels are".to_owned() };
+        format!("{bad} {pixels} infinite or not a number: the picture cannot be a light")
+    })
+}
+
+impl Panorama {
+    /// The picture. Integer values are sRGB-encoded, floats linear; alpha is not looked at.
+    pub(super) fn new(image: Arc<Image>, layout: Layout) -> Self {
+        let encoded = !matches!(image.data, ImageData::F32(_));
+        Self { texels: Texels::new(image, encoded), layout }
+    }
+    /// How it is wrapped around the sphere.
+    pub(super) fn layout(&self) -> Layout {
+        self.layout
+    }
+    /// Columns and rows.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.texels.width(), self.texels.height()]
+    }
+    /// Linear RGB of the pixel in column `x` and row `y`; negative values, as sharpening leaves them, become 0.
+    pub(super) fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
+        let [r, g, b, _] = self.texels.rgba(x, y);
+        [r.max(0.0), g.max(0.0), b.max(0.0)]
+    }
+    /// Linear RGB in unit direction `d`, bilinear.
+    pub(super) fn seen(&self, d: Vector3) -> [f32; 3] {
+        weighted(self.layout.corners(self.layout.uv(d), self.size()), |x, y| self.pixel(x, y))
+    }
+}
+
+/// The weighted sum of four pixels.
+pub(super) fn weighted(corners: [((u32, u32), f32); 4], pixel: impl Fn(u32, u32) -> [f32; 3]) -> [f32; 3] {
+    let parts = corners.map(|((x, y), weight)| pixel(x, y).map(|v| v * weight));
+    std::array::from_fn(|c| parts.iter().map(|p| p[c]).sum())
+}
