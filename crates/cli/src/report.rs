@@ -27,11 +27,11 @@ impl TalkOptions {
     }
 }
 
-/// Complaints to stderr, and how many errors there were.
-pub(crate) fn print(imported: &Imported, talk: &TalkOptions) {
+/// Complaints about `scene` to stderr, and how many errors there were.
+pub(crate) fn print(scene: &str, imported: &Imported, talk: &TalkOptions) {
     let stderr = std::io::stderr().is_terminal();
     let looks = Looks { terminal: stderr, color: stderr && std::env::var_os("NO_COLOR").is_none() };
-    let text = render(imported, talk.least(), looks);
+    let text = render(scene, imported, talk.least(), looks);
     if !text.is_empty() {
         tell(text.trim_end());
     }
@@ -57,13 +57,13 @@ impl Looks {
 }
 
 /// All complaints that are at least this severe.
-pub(crate) fn render(imported: &Imported, least: Severity, looks: Looks) -> String {
+pub(crate) fn render(scene: &str, imported: &Imported, least: Severity, looks: Looks) -> String {
     let mut texts = Texts { sources: &imported.sources, parsed: HashMap::new() };
     let said = imported.diagnostics.iter().filter(|d| d.severity >= least);
-    said.map(|d| one(d, &mut texts, looks)).collect()
+    said.map(|d| one(scene, d, &mut texts, looks)).collect()
 }
 
-fn one(diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
+fn one(scene: &str, diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
     let Diagnostic { severity, at, message, hint } = diagnostic;
     let header = header(*severity, looks);
     let place = match at {
@@ -73,6 +73,8 @@ fn one(diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
         },
         Location::Path { file, pointer } if pointer.is_empty() => file.clone(),
         Location::Path { file, pointer } => format!("{file}: {pointer}"),
+        // What is wrong with the whole scene is the file's fault.
+        Location::None if *severity == Severity::Error && !message.contains(scene) => scene.to_owned(),
         Location::None => String::new(),
     };
     // Messages about a whole file begin with its name already.

@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     output.map_or(Ok(()), check_output)?;
     let scene = &args.sample_options.scene.scene;
     let loaded = load(scene, &args.sample_options.wishes());
-    report::print(&loaded.imported, &args.talk);
+    report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
         return Ok(Exit::Failed);
     };

@@ -127,6 +127,8 @@ pub struct Scene {
     pub(crate) movers: Vec<PlacedShape>,
     /// True if some material has holes, so that hits must be asked about them.
     pub(crate) has_holes: bool,
+    /// What compiling found and took.
+    pub report: crate::compile::Report,
 }
 
 impl UserGeometry for Scene {

@@ -7,6 +7,9 @@
 mod automatic;
 mod geometry;
 mod nodes;
+mod report;
+
+use std::time::Instant;
 
 use durer_accel::Engine;
 use durer_core::{
@@ -19,6 +22,7 @@ use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node
 use crate::{Scene, View, integrator::Integrator};
 
 pub use nodes::integrator;
+pub use report::{GeometryCounts, Report, Times};
 
 /// How to compile, beyond what the description says.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,9 +66,16 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, diagnostics };
+    let mut report = Report::default();
+    let start = Instant::now();
     let textures = nodes.textures();
     let mut materials = nodes.materials();
+    report.times.textures = start.elapsed();
+    let start = Instant::now();
     let shapes = nodes.shapes();
+    report.geometry = GeometryCounts::of(desc, &shapes);
+    report.expected_bytes = report.geometry.expected_bytes();
+    report.times.geometry = start.elapsed();
     let bounds = geometry::world_bounds(desc, &shapes);
     let camera = chosen_camera(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
@@ -85,6 +96,7 @@ pub fn compile(
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let lights = nodes.lights(&lights, -origin, shutter);
 
+    let start = Instant::now();
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let placed = geometry::Placing {
@@ -95,6 +107,9 @@ pub fn compile(
     }
     .place(shapes, diagnostics);
     let (view, placed) = (view?, placed?);
+    report.placed_mesh_bytes = placed.merged.iter().map(|m| report::mesh_bytes(&m.mesh)).sum();
+    report.times.acceleration = placed.building;
+    report.times.geometry += start.elapsed().saturating_sub(placed.building);
     if diagnostics.has_errors() {
         return None;
     }
@@ -113,6 +128,7 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         has_holes,
+        report,
     })
 }
 
