@@ -17,7 +17,7 @@ use durer_core::{
     math::{Interval, Transform},
 };
 use durer_model::shape::Geometry;
-use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
+use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc, TextureNames};
 
 use crate::{Scene, View, integrator::Integrator};
 
@@ -65,7 +65,8 @@ pub fn compile(
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
-    let mut nodes = nodes::Builder { desc, assets, missing: options.missing, diagnostics };
+    let names = TextureNames::of(&desc.textures);
+    let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
     let mut report = Report::default();
     let start = Instant::now();
     let textures = nodes.textures();
