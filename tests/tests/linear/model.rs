@@ -1,7 +1,7 @@
 //! OBJ, PLY and STL files of any number of triangles.
 use std::fmt::Write;
 
-use super::{Case, alone};
+use super::{Case, Files, alone};
 
 pub(crate) fn cases() -> Vec<Case> {
     vec![
@@ -42,7 +42,7 @@ fn obj(n: usize) -> String {
     text
 }
 
-fn obj_of_materials(n: usize) -> (Vec<u8>, Vec<(String, Vec<u8>)>) {
+fn obj_of_materials(n: usize) -> Files {
     let (mut text, mut library) = ("mtllib scene.mtl\n".to_owned(), String::new());
     for i in 0..n {
         writeln!(library, "newmtl paint{i}\nKd 0.5 0.5 0.5").expect("text");
