@@ -93,8 +93,7 @@ fn check_content(
         n => format!("none of the scene's shapes has a triangle: {n}"),
     };
     let message = format!("nothing to draw: {found}, and no sky of its own");
-    let hint =
-        "look for an empty export: meshes left out, only points and lines, or nodes that no scene lists";
+    let hint = "look into the export: points, lines and objects that the scene does not use are not drawn";
     match nothing {
         Missing::Refuse => diagnostics.error(Location::None, message).hint(hint),
         Missing::Warn => diagnostics.warning(Location::None, message).hint(hint),

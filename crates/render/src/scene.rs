@@ -107,6 +107,8 @@ impl View {
 /// A compiled scene.
 #[derive(Debug)]
 pub struct Scene {
+    /// What compiling found and took.
+    pub report: crate::compile::Report,
     /// What hits belong to.
     pub objects: Vec<Object>,
     /// Materials, as [`Object::material`] numbers them.
@@ -127,8 +129,6 @@ pub struct Scene {
     pub(crate) movers: Vec<PlacedShape>,
     /// True if some material has holes, so that hits must be asked about them.
     pub(crate) has_holes: bool,
-    /// What compiling found and took.
-    pub report: crate::compile::Report,
 }
 
 impl UserGeometry for Scene {

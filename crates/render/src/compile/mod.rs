@@ -9,7 +9,7 @@ mod geometry;
 mod nodes;
 mod report;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use durer_accel::Engine;
 use durer_core::{
@@ -17,7 +17,7 @@ use durer_core::{
     math::{Interval, Transform},
 };
 use durer_model::shape::Geometry;
-use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc, TextureNames};
+use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{Scene, View, integrator::Integrator};
 
@@ -65,18 +65,11 @@ pub fn compile(
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
-    let names = TextureNames::of(&desc.textures);
+    let names = durer_scene::TextureNames::of(&desc.textures);
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
-    let mut report = Report::default();
-    let start = Instant::now();
-    let textures = nodes.textures();
-    let mut materials = nodes.materials();
-    report.times.textures = start.elapsed();
-    let start = Instant::now();
-    let shapes = nodes.shapes();
-    report.geometry = GeometryCounts::of(desc, &shapes);
-    report.expected_bytes = report.geometry.expected_bytes();
-    report.times.geometry = start.elapsed();
+    let ((textures, mut materials), of_textures) = timed(|| (nodes.textures(), nodes.materials()));
+    let (shapes, of_shapes) = timed(|| nodes.shapes());
+    let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
     let camera = chosen_camera(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
@@ -97,26 +90,24 @@ pub fn compile(
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let lights = nodes.lights(&lights, -origin, shutter);
 
-    let start = Instant::now();
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
-    let placed = geometry::Placing {
+    let placing = geometry::Placing {
         desc,
         render_from_world: DAffine3::from_translation(-origin),
         default_material,
         engine: options.engine,
-    }
-    .place(shapes, diagnostics);
+    };
+    let (placed, of_placing) = timed(|| placing.place(shapes, diagnostics));
     let (view, placed) = (view?, placed?);
-    report.placed_mesh_bytes = placed.merged.iter().map(|m| report::mesh_bytes(&m.mesh)).sum();
-    report.times.acceleration = placed.building;
-    report.times.geometry += start.elapsed().saturating_sub(placed.building);
+    let report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
     if diagnostics.has_errors() {
         return None;
     }
     let has_holes = materials.iter().any(|m| m.has_holes());
     let (lights, light_names) = lights.into_iter().unzip();
     Some(Scene {
+        report,
         objects: placed.objects,
         materials,
         textures,
@@ -129,8 +120,14 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         has_holes,
-        report,
     })
+}
+
+/// What `work` makes, and how long it takes.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let made = work();
+    (made, start.elapsed())
 }
 
 /// The camera the options name, else the first.

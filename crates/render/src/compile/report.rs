@@ -4,6 +4,8 @@ use std::{collections::HashMap, sync::Arc, time::Duration};
 use durer_model::shape::Geometry;
 use durer_scene::{Mesh, SceneDesc, ShapeSource};
 
+use super::geometry::Placed;
+
 /// What a triangle costs in the kernel, in bytes: its vertices and number (44), and its share in the boxes above it,
 /// which lie in pairs of 64 bytes with about two triangles in a leaf.
 const BYTES_OF_TRIANGLE: u64 = 44 + 32;
@@ -54,6 +56,24 @@ pub struct GeometryCounts {
     pub mesh_bytes: u64,
 }
 
+impl Report {
+    /// Puts together what was counted; `geometry` is the time of shapes and of placing them with the trees above them.
+    pub(super) fn new(
+        counts: GeometryCounts,
+        placed: &Placed,
+        textures: Duration,
+        geometry: Duration,
+    ) -> Self {
+        let acceleration = placed.building;
+        Self {
+            geometry: counts,
+            placed_mesh_bytes: placed.merged.iter().map(|m| mesh_bytes(&m.mesh)).sum(),
+            expected_bytes: counts.expected_bytes(),
+            times: Times { textures, geometry: geometry.saturating_sub(acceleration), acceleration },
+        }
+    }
+}
+
 impl GeometryCounts {
     /// Counts what a description's shapes have become: built from their nodes, or meshes of the description.
     pub(super) fn of(desc: &SceneDesc, built: &[Option<Geometry>]) -> Self {
@@ -85,14 +105,14 @@ impl GeometryCounts {
     }
 
     /// Bytes the kernel will take, roughly.
-    pub(super) fn expected_bytes(&self) -> u64 {
+    fn expected_bytes(&self) -> u64 {
         let items = self.triangles + self.other_shapes;
         items * BYTES_OF_TRIANGLE + self.shared_placements * BYTES_OF_INSTANCE
     }
 }
 
 /// Heap memory of a mesh.
-pub(super) fn mesh_bytes(mesh: &Mesh) -> u64 {
+fn mesh_bytes(mesh: &Mesh) -> u64 {
     let later: usize = mesh.later.iter().map(|key| size_of_val(key.positions.as_slice())).sum();
     let total = size_of_val(mesh.positions.as_slice())
         + size_of_val(mesh.indices.as_slice())
