@@ -25,10 +25,9 @@ const SCENES: &[&str] = &["gltf", "glb", "pbrt", "obj", "ply", "stl"];
 const STRUCTURAL: &[&str] = &[
     "INVALID_JSON",
     "GLB_",
-    "BUFFER_MISSING_GLB_DATA",
     "BUFFER_VIEW_TOO_LONG",
     "ACCESSOR_TOO_LONG",
-    "ACCESSOR_INDEX_",
+    "ACCESSOR_INDEX_OOB",
     "NODE_LOOP",
     "UNRESOLVED_REFERENCE",
 ];
@@ -162,16 +161,23 @@ fn files_whose_structure_is_broken_are_refused() {
     }));
 }
 
+fn is_png(file: &Path) -> bool {
+    file.extension().is_some_and(|suffix| suffix == "png")
+}
+
 /// Pictures that an environment may be, and whether they are sound.
 fn pictures(shared: &Path) -> Vec<(PathBuf, bool)> {
     let assets = shared.join("assets");
-    let good = ["images/exr", "images/png/pngsuite", "images/jpg", "images/hdr", "env"];
+    let good = ["images/exr", "images/png/pngsuite", "images/jpg", "images/hdr"];
     let bad = ["malformed/exr", "malformed/images"];
+    // What small kinds of PNG there are is for the tests of images; some of them are enough here.
+    let every = if std::env::var_os("DURER_SLOW").is_some() { 1 } else { 6 };
     let of = |folders: &[&str], sound: bool| {
         let files: Vec<PathBuf> = folders.iter().flat_map(|f| files_below(&assets.join(f))).collect();
         files.into_iter().map(move |file| (file, sound))
     };
-    of(&good, true).chain(of(&bad, false)).collect()
+    let sound = of(&good, true).enumerate().filter(|(i, (file, _))| i % every == 0 || !is_png(file));
+    sound.map(|(_, picture)| picture).chain(of(&bad, false)).collect()
 }
 
 #[test]
@@ -184,7 +190,7 @@ fn pictures_become_environments_or_are_refused() {
         return;
     }
     let pictures = pictures(&shared);
-    assert!(pictures.len() > 250, "only {} pictures", pictures.len());
+    assert!(pictures.len() > 150, "only {} pictures", pictures.len());
     insist(each(&pictures, |(file, sound)| {
         let words = ["render", "--env", "FILE", "--width", "32", "--spp", "1", "-o", "picture.png"];
         let (ran, folder) = bench.run(&words, file);
