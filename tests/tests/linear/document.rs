@@ -10,11 +10,11 @@ const PIXEL: &str =
 pub(crate) fn cases() -> Vec<Case> {
     let case = |name, suffix, size, write| Case { name, suffix, size, write };
     vec![
-        case("glTF, triangles of a mesh", "glb", 12_000, |n| alone(glb(mesh(n)))),
+        case("glTF, triangles of a mesh", "glb", 8000, |n| alone(glb(mesh(n)))),
         case("glTF, nodes with one mesh", "gltf", 2000, |n| alone(nodes(n).to_string())),
         case("glTF, nodes below one another", "gltf", 200, |n| alone(chains(n).to_string())),
-        case("glTF, meshes and materials", "gltf", 1000, |n| alone(meshes(n).to_string())),
-        case("glTF, textures and images", "gltf", 1000, |n| alone(textures(n).to_string())),
+        case("glTF, meshes and materials", "gltf", 500, |n| alone(meshes(n).to_string())),
+        case("glTF, textures and images", "gltf", 400, |n| alone(textures(n).to_string())),
     ]
 }
 

@@ -5,12 +5,12 @@ use super::{Case, Files, alone};
 
 pub(crate) fn cases() -> Vec<Case> {
     vec![
-        Case { name: "OBJ, triangles", suffix: "obj", size: 12_000, write: |n| alone(obj(n)) },
+        Case { name: "OBJ, triangles", suffix: "obj", size: 8000, write: |n| alone(obj(n)) },
         Case { name: "OBJ, materials and groups", suffix: "obj", size: 2000, write: obj_of_materials },
-        Case { name: "PLY as text", suffix: "ply", size: 12_000, write: |n| alone(ply_text(n)) },
-        Case { name: "PLY as bytes", suffix: "ply", size: 12_000, write: |n| alone(ply_bytes(n)) },
-        Case { name: "STL as text", suffix: "stl", size: 12_000, write: |n| alone(stl_text(n)) },
-        Case { name: "STL as bytes", suffix: "stl", size: 12_000, write: |n| alone(stl_bytes(n)) },
+        Case { name: "PLY as text", suffix: "ply", size: 8000, write: |n| alone(ply_text(n)) },
+        Case { name: "PLY as bytes", suffix: "ply", size: 8000, write: |n| alone(ply_bytes(n)) },
+        Case { name: "STL as text", suffix: "stl", size: 8000, write: |n| alone(stl_text(n)) },
+        Case { name: "STL as bytes", suffix: "stl", size: 8000, write: |n| alone(stl_bytes(n)) },
     ]
 }
 

@@ -9,14 +9,14 @@ const BEGIN: &str = "WorldBegin\nLightSource \"point\"\n";
 pub(crate) fn cases() -> Vec<Case> {
     let case = |name, size, write| Case { name, suffix: "pbrt", size, write };
     vec![
-        case("pbrt, shapes", 3000, |n| {
+        case("pbrt, shapes", 2000, |n| {
             alone(scene(n, |i| format!("Shape \"sphere\" \"float radius\" {}\n", i + 1)))
         }),
         case("pbrt, nested blocks of attributes", 3000, |n| {
             let block = "AttributeBegin\nAttributeBegin\nTranslate 1 0 0\nAttributeEnd\nAttributeEnd\n";
             alone(scene(n, |_| block.to_owned()) + "Shape \"sphere\"\n")
         }),
-        case("pbrt, instances", 3000, |n| {
+        case("pbrt, instances", 2000, |n| {
             let object = "ObjectBegin \"a\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \
                           \"integer indices\" [0 1 2]\nObjectEnd\n";
             alone(scene(n, |i| {
@@ -51,7 +51,7 @@ pub(crate) fn cases() -> Vec<Case> {
         case("pbrt, lights", 2000, |n| {
             alone(scene(n, |_| "LightSource \"point\"\n".to_owned()) + "Shape \"sphere\"\n")
         }),
-        case("pbrt, triangles of a mesh", 12_000, |n| {
+        case("pbrt, triangles of a mesh", 8000, |n| {
             let mesh = grid(n);
             let mut text = format!("{BEGIN}Shape \"trianglemesh\" \"point3 P\" [");
             mesh.points.iter().flatten().for_each(|v| write!(text, "{v} ").expect("text"));
