@@ -14,7 +14,8 @@ pub(super) fn text(groups: &[(String, Vec<Tried>)], options: &Options) -> String
         "Written by `{}` on {}. Pictures are drawn {} pixels wide with {SAMPLES} samples per pixel and shown smaller. \
          *load* is reading and parsing, *build* decoding images and building trees, *render* drawing with rays \
          counted. Triangles of shared meshes count as often as they are placed. Models without a camera or a light \
-         are framed and lit by the program.\n\n",
+         are framed and lit by the program. The models are not ours: each row names the licence and the source, under \
+         which its thumbnail stands too.\n\n",
         command(options),
         machine(),
         options.width

@@ -77,9 +77,14 @@ impl Trial {
     /// # Errors
     /// If the program behaves as no program of ours may: it crashes, or prints something else than it should.
     pub(super) fn run(&self, file: &str) -> anyhow::Result<(Outcome, Option<PathBuf>)> {
+        // Messages about a whole file begin with its name, which the table has already.
+        let refused = |reason: String| {
+            let reason = reason.strip_prefix(&format!("{file}: ")).unwrap_or(&reason);
+            Ok((Outcome::Refused(reason.to_owned()), None))
+        };
         let info = self.durer(["info", file, "--json"])?;
         if let Some(reason) = refusal(&info).with_context(|| format!("durer info \"{file}\""))? {
-            return Ok((Outcome::Refused(reason), None));
+            return refused(reason);
         }
         let facts: Value = serde_json::from_str(&info.stdout).context("what info prints is no JSON")?;
         let picture = self.work.join(format!("{}.png", file.replace(['/', ' '], "-")));
@@ -98,7 +103,7 @@ impl Trial {
         ];
         let rendered = self.durer(words)?;
         if let Some(reason) = refusal(&rendered).with_context(|| format!("durer render \"{file}\""))? {
-            return Ok((Outcome::Refused(reason), None));
+            return refused(reason);
         }
         let stats: Value = serde_json::from_str(&rendered.stdout).context("what render prints is no JSON")?;
         let number = |value: &Value, pointer: &str| {
