@@ -9,7 +9,7 @@ mod texture;
 use durer::scene::Missing;
 
 use crate::{
-    exit::{Exit, emit, emit_json},
+    exit::{Exit, emit, emit_json, harmless},
     load::load,
     options::{SceneOptions, TalkOptions},
     report,
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     if args.json {
         emit_json(&info)?;
     } else if !failed {
-        emit(&text::table(&info, &loaded.imported))?;
+        emit(&harmless(&text::table(&info, &loaded.imported)))?;
     }
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }

@@ -12,7 +12,7 @@ use anyhow::Context;
 use durer::{Prepared, film::Pixel, probe::RayTree};
 
 use crate::{
-    exit::{Exit, WrongUsage, emit, emit_json, tell},
+    exit::{Exit, WrongUsage, emit, emit_json, harmless, tell},
     load::load,
     options::{SampleOptions, TalkOptions, numbers},
     output::check_writable,
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     if args.json {
         emit_json(&json::Tree::new(&traced))?;
     } else {
-        emit(&text::tree(&traced))?;
+        emit(&harmless(&text::tree(&traced)))?;
     }
     Ok(Exit::Done)
 }
