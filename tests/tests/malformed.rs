@@ -63,7 +63,9 @@ impl Bench {
 fn complaint(ran: &Ran, file: &Path) -> Option<String> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let said = &ran.stderr;
+    let commands = |c: char| c.is_control() && c != '\n' && c != '\t';
     let wrong = match ran.code {
+        _ if said.contains(commands) => "repeats control characters".to_owned(),
         None => format!("killed after {:.1?}", ran.wall),
         Some(0) if INSIDE.iter().any(|word| said.contains(word)) => "talks of its inside".to_owned(),
         Some(0) => return None,
@@ -221,6 +223,7 @@ fn bad_endings_are_seen() {
         (Some(2), "error: b.gltf: it is empty"),
         (Some(1), "error: b.gltf\nthread 'main' panicked at x"),
         (Some(0), "thread '<unnamed>' panicked at x"),
+        (Some(1), "error: b.gltf: unknown word \u{1b}[2J"),
     ] {
         assert!(complaint(&ran(code, stderr), file).is_some(), "{code:?} {stderr}");
     }
