@@ -3,13 +3,10 @@
 //! `cargo run --release -- X` becomes `durer X` of the build under test. Pictures are made small unless the command says
 //! how large. Scenes that stand for a user's own are written beside it: `room.glb` and `room.pbrt`. Commands that would
 //! take too long or run this test again are listed in `NOT_RUN`.
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::{fs, process::Command};
 
-use serde_json::{Value, json};
+use durer_tests::program::{program, root};
+use serde_json::json;
 
 /// Commands that are not run here, and why.
 const NOT_RUN: &[(&str, &str)] = &[
@@ -19,11 +16,6 @@ const NOT_RUN: &[(&str, &str)] = &[
 
 /// How the README starts the program.
 const PREFIX: &str = "cargo run --release -- ";
-
-/// The project's folder.
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the project")
-}
 
 /// A command of the README.
 #[derive(Debug, Default, PartialEq)]
@@ -86,21 +78,6 @@ fn small(command: &str) -> Option<Vec<String>> {
         words.extend(["--scale", "0.1"].map(str::to_owned));
     }
     Some(words)
-}
-
-/// Builds the program like this test was built, and says where it is.
-fn program() -> PathBuf {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(cargo);
-    command.args(["build", "--package", "durer-cli", "--message-format", "json"]).current_dir(root());
-    if !cfg!(debug_assertions) {
-        command.arg("--release");
-    }
-    let output = command.output().expect("cargo runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let messages = String::from_utf8_lossy(&output.stdout).into_owned();
-    let mut messages = messages.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
-    messages.find_map(|message| message["executable"].as_str().map(PathBuf::from)).expect("a program")
 }
 
 /// A binary glTF file with one triangle of a metre.

@@ -1,13 +1,18 @@
 //! Project tasks: `cargo xtask help`.
 #![forbid(unsafe_code)]
 
+mod assets;
 mod bench;
 mod measure;
 mod needs;
 mod steps;
 mod test;
 
-use std::{env, path::PathBuf, process::ExitCode};
+use std::{
+    env,
+    path::{Path, PathBuf},
+    process::{Command, ExitCode},
+};
 
 use anyhow::{Context, bail};
 
@@ -21,6 +26,12 @@ Tasks of the durer project.
   cargo xtask bench render [--json] [--runs N]
       Renders benches/povray_spheres.pbrt at 1280 x 960 with 2 threads N times (default 5), in turns with POV-Ray on
       the twin scene if `povray` is installed; prints each run, medians and ratios, with --json as JSON.
+
+  cargo xtask assets [--folder F] [--formats gltf,obj,ply,stl] [--width 320]
+      Opens and renders every model of these formats in the folder of test files (F, else the assets/ in DURER_SHARED,
+      else ../shared/assets); writes docs/assets.md with a thumbnail, counts and times of each and says which were
+      refused and why; puts contact sheets into target/assets/, and the page too if formats are left out. `pbrt` is
+      a format too.
 
   cargo xtask help
       This text.";
@@ -41,6 +52,7 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
     match words {
         ["test"] => test::run(test::Extent::Full),
         ["test", "--quick"] => test::run(test::Extent::Quick),
+        ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
         ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");
@@ -60,4 +72,23 @@ fn root() -> anyhow::Result<PathBuf> {
 /// The cargo that runs this.
 fn cargo() -> String {
     env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
+}
+
+/// Where cargo puts what it builds.
+fn target_folder() -> anyhow::Result<PathBuf> {
+    let words = ["metadata", "--format-version", "1", "--no-deps", "--offline"];
+    let output = Command::new(cargo()).args(words).current_dir(root()?).output()?;
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).context("cargo metadata")?;
+    let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;
+    Ok(Path::new(folder).to_path_buf())
+}
+
+/// Builds the program for speed, and says where it is.
+fn release_program() -> anyhow::Result<PathBuf> {
+    eprintln!("==> cargo build --release");
+    let built = Command::new(cargo()).args(["build", "--release"]).current_dir(root()?).status()?;
+    if !built.success() {
+        bail!("durer cannot be built");
+    }
+    Ok(target_folder()?.join("release").join(format!("durer{}", env::consts::EXE_SUFFIX)))
 }

@@ -17,6 +17,8 @@ struct Need {
     root: bool,
     /// Only the full run needs it.
     full: bool,
+    /// Tests that need it say that they are skipped where it is not there.
+    optional: bool,
 }
 
 const NEEDS: &[Need] = &[
@@ -28,6 +30,7 @@ const NEEDS: &[Need] = &[
         cure: &["apt-get", "install", "-y", "--no-install-recommends", "gcc", "libc6-dev"],
         root: true,
         full: false,
+        optional: false,
     },
     Need {
         name: "rustfmt",
@@ -35,6 +38,7 @@ const NEEDS: &[Need] = &[
         cure: &["rustup", "component", "add", "rustfmt"],
         root: false,
         full: false,
+        optional: false,
     },
     Need {
         name: "clippy",
@@ -42,13 +46,26 @@ const NEEDS: &[Need] = &[
         cure: &["rustup", "component", "add", "clippy"],
         root: false,
         full: true,
+        optional: false,
+    },
+    Need {
+        name: "valgrind, for counting instructions",
+        probe: &["valgrind", "--version"],
+        cure: &["apt-get", "install", "-y", "--no-install-recommends", "valgrind"],
+        root: true,
+        full: false,
+        optional: true,
     },
 ];
 
 /// Sees to it that all is there that a run needs.
 pub(crate) fn check(full: bool) -> anyhow::Result<()> {
     let needs: Vec<&Need> = NEEDS.iter().filter(|need| full || !need.full).collect();
-    let missing: Vec<&&Need> = needs.iter().filter(|need| !need.obtain()).collect();
+    let (optional, missing): (Vec<&Need>, Vec<&Need>) =
+        needs.into_iter().filter(|need| !need.obtain()).partition(|need| need.optional);
+    for need in optional {
+        println!("warning: missing, so that tests will be skipped:\n{}", need.complaint());
+    }
     if missing.is_empty() {
         return Ok(());
     }

@@ -1,5 +1,6 @@
 //! Exit status and the two streams.
 use std::{
+    borrow::Cow,
     fmt,
     io::{self, Write},
     process::ExitCode,
@@ -52,6 +53,23 @@ impl std::error::Error for WrongUsage {}
 /// A line, or several, to stderr. Nothing can be done if that is closed.
 pub(crate) fn tell(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// A text without what would command a terminal: names and words of a scene file may hold anything. Each control
+/// character becomes as many question marks as it has bytes, so that places in the text stay what they are.
+pub(crate) fn harmless(text: &str) -> Cow<'_, str> {
+    let commands = |c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
+    if !text.contains(commands) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match commands(c) {
+            true => shown.extend(std::iter::repeat_n('?', c.len_utf8())),
+            false => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
 }
 
 /// Results to stdout.

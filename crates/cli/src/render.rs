@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let interrupt = Interrupt::listen()?;
     let wishes = durer::Options { threads: args.threads.map(|n| n as usize), ..args.sample.wishes() };
     let loaded = load(scene, &wishes);
-    report::print(&loaded.imported, &args.talk);
+    report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
         return Ok(Exit::Failed);
     };

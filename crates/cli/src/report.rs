@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and where: the text with carets under it, or a path in a file without lines.
 use std::{
+    borrow::Cow,
     collections::HashMap,
     convert::Infallible,
     fmt::{Debug, Display},
@@ -14,7 +15,10 @@ use durer::{
 };
 use serde::Serialize;
 
-use crate::{exit::tell, options::TalkOptions};
+use crate::{
+    exit::{harmless, tell},
+    options::TalkOptions,
+};
 
 impl TalkOptions {
     /// The least severe complaints that are said.
@@ -27,11 +31,11 @@ impl TalkOptions {
     }
 }
 
-/// Complaints to stderr, and how many errors there were.
-pub(crate) fn print(imported: &Imported, talk: &TalkOptions) {
+/// Complaints about `scene` to stderr, and how many errors there were.
+pub(crate) fn print(scene: &str, imported: &Imported, talk: &TalkOptions) {
     let stderr = std::io::stderr().is_terminal();
     let looks = Looks { terminal: stderr, color: stderr && std::env::var_os("NO_COLOR").is_none() };
-    let text = render(imported, talk.least(), looks);
+    let text = render(scene, imported, talk.least(), looks);
     if !text.is_empty() {
         tell(text.trim_end());
     }
@@ -57,15 +61,16 @@ impl Looks {
 }
 
 /// All complaints that are at least this severe.
-pub(crate) fn render(imported: &Imported, least: Severity, looks: Looks) -> String {
+pub(crate) fn render(scene: &str, imported: &Imported, least: Severity, looks: Looks) -> String {
     let mut texts = Texts { sources: &imported.sources, parsed: HashMap::new() };
     let said = imported.diagnostics.iter().filter(|d| d.severity >= least);
-    said.map(|d| one(d, &mut texts, looks)).collect()
+    said.map(|d| one(scene, d, &mut texts, looks)).collect()
 }
 
-fn one(diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
+fn one(scene: &str, diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
     let Diagnostic { severity, at, message, hint } = diagnostic;
     let header = header(*severity, looks);
+    let (message, hint) = (harmless(message), hint.as_deref().map(harmless));
     let place = match at {
         Location::Span(span) => match excerpt(diagnostic, *span, texts, looks) {
             Some(excerpt) => return format!("{header} {message}\n{excerpt}"),
@@ -73,11 +78,15 @@ fn one(diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
         },
         Location::Path { file, pointer } if pointer.is_empty() => file.clone(),
         Location::Path { file, pointer } => format!("{file}: {pointer}"),
+        // What is wrong with the whole scene is the file's fault.
+        Location::None if *severity == Severity::Error && !message.contains(scene) => scene.to_owned(),
         Location::None => String::new(),
     };
     // Messages about a whole file begin with its name already.
-    let place =
-        if place.is_empty() || message.starts_with(&place) { String::new() } else { format!("{place}: ") };
+    let place = match place.is_empty() || message.starts_with(&place) {
+        true => String::new(),
+        false => format!("{}: ", harmless(&place)),
+    };
     let hint = hint.as_ref().map(|h| format!("  help: {h}\n")).unwrap_or_default();
     format!("{header} {place}{message}\n{hint}")
 }
@@ -109,7 +118,7 @@ fn excerpt(diagnostic: &Diagnostic, span: Span, texts: &mut Texts<'_>, looks: Lo
     let label = Label::new(at.clone()).with_message("here").with_color(color(diagnostic.severity));
     let mut report = Report::build(ReportKind::Error, at).with_config(config).with_label(label);
     if let Some(hint) = &diagnostic.hint {
-        report.set_help(hint);
+        report.set_help(harmless(hint));
     }
     let mut bytes = Vec::new();
     report.finish().write(texts, &mut bytes).ok()?;
@@ -128,15 +137,15 @@ fn marked(text: &str, span: Span) -> Option<Range<usize>> {
 /// The source texts, cut into lines when they are needed first.
 struct Texts<'a> {
     sources: &'a Sources,
-    parsed: HashMap<SourceId, Source<&'a str>>,
+    parsed: HashMap<SourceId, Source<Cow<'a, str>>>,
 }
 
 impl<'t> ariadne::Cache<SourceId> for Texts<'t> {
-    type Storage = &'t str;
+    type Storage = Cow<'t, str>;
 
-    fn fetch(&mut self, id: &SourceId) -> Result<&Source<&'t str>, impl Debug> {
+    fn fetch(&mut self, id: &SourceId) -> Result<&Source<Cow<'t, str>>, impl Debug> {
         let text = self.sources.text(*id);
-        Ok::<_, Infallible>(self.parsed.entry(*id).or_insert_with(|| Source::from(text)))
+        Ok::<_, Infallible>(self.parsed.entry(*id).or_insert_with(|| Source::from(harmless(text))))
     }
     fn display<'a>(&self, id: &'a SourceId) -> Option<impl Display + 'a> {
         Some(self.sources.name(*id).to_owned())

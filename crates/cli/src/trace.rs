@@ -12,7 +12,7 @@ use anyhow::Context;
 use durer::{Prepared, film::Pixel, probe::RayTree};
 
 use crate::{
-    exit::{Exit, WrongUsage, emit, emit_json, tell},
+    exit::{Exit, WrongUsage, emit, emit_json, harmless, tell},
     load::load,
     options::{SampleOptions, TalkOptions, numbers},
     output::check_writable,
@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     output.map_or(Ok(()), check_output)?;
     let scene = &args.sample_options.scene.scene;
     let loaded = load(scene, &args.sample_options.wishes());
-    report::print(&loaded.imported, &args.talk);
+    report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
         return Ok(Exit::Failed);
     };
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     if args.json {
         emit_json(&json::Tree::new(&traced))?;
     } else {
-        emit(&text::tree(&traced))?;
+        emit(&harmless(&text::tree(&traced)))?;
     }
     Ok(Exit::Done)
 }

@@ -44,4 +44,6 @@ pub struct Options {
     pub threads: Option<usize>,
     /// What becomes of missing images.
     pub missing: Missing,
+    /// What becomes of scenes that show nothing.
+    pub nothing: Missing,
 }

@@ -1,5 +1,5 @@
 //! A description and wishes to something that renders.
-use durer_core::sampling::SamplerKind;
+use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
 use durer_render::{
     Scene,
@@ -7,7 +7,7 @@ use durer_render::{
     drive::{Job, Settings},
     integrator::{INTEGRATORS, Integrator, Output, Show},
 };
-use durer_scene::{Data, Diagnostics, Location, Node, Param, SceneDesc, ValueType};
+use durer_scene::{Data, Diagnostics, Location, Missing, Node, Param, SceneDesc, ValueType};
 
 use crate::{Options, environment};
 
@@ -53,9 +53,6 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         }
         None => &*desc,
     };
-    if desc.shapes.is_empty() {
-        diagnostics.warning(Location::None, "the scene has no shapes: only its sky can be seen");
-    }
     let integrator_node = integrator_node(desc, options, diagnostics);
     let integrator = compile::integrator(&integrator_node, diagnostics);
     let size = picture_size(desc, options, diagnostics);
@@ -71,6 +68,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     let scene = compile::compile(desc, &*assets, &compile_options, diagnostics);
     let (scene, integrator) = (scene?, integrator?);
     size?;
+    check_content(desc, &scene, options.nothing, diagnostics)?;
     let settings = Settings {
         samples: samples(desc, options, integrator.output(), diagnostics),
         sampler: sampler(desc),
@@ -80,6 +78,47 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         crop: options.crop,
     };
     Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
+}
+
+/// Complains about a scene without geometry; `None` if that shall be an error and no sky of its own can be seen either.
+fn check_content(
+    desc: &SceneDesc,
+    scene: &Scene,
+    nothing: Missing,
+    diagnostics: &mut Diagnostics,
+) -> Option<()> {
+    let built = scene.accel.stats();
+    if built.triangles + built.user_primitives > 0 {
+        return Some(());
+    }
+    // Without lights of its own a scene is lit by ours, which shows nothing of the file.
+    if !desc.lights.is_empty() && has_visible_sky(scene) {
+        diagnostics.warning(Location::None, "the scene has no shapes: only its sky can be seen");
+        return Some(());
+    }
+    let found = match desc.shapes.len() {
+        0 => "the scene has no shapes".to_owned(),
+        n => format!("none of the scene's shapes has a triangle: {n}"),
+    };
+    let message = format!("nothing to draw: {found}, and no sky of its own");
+    let hint = "look into the export: points, lines and objects that the scene does not use are not drawn";
+    match nothing {
+        Missing::Refuse => diagnostics.error(Location::None, message).hint(hint),
+        Missing::Warn => diagnostics.warning(Location::None, message).hint(hint),
+    };
+    (nothing == Missing::Warn).then_some(())
+}
+
+/// Whether light comes from somewhere behind everything, in one of many directions.
+fn has_visible_sky(scene: &Scene) -> bool {
+    const DIRECTIONS: u32 = 256;
+    (0..DIRECTIONS).any(|i| {
+        // A spiral from pole to pole.
+        let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(DIRECTIONS);
+        let (radius, angle) = ((1.0 - z * z).sqrt(), f64::from(i) * 2.399_963);
+        let d = Vector3::new((radius * angle.cos()) as f32, (radius * angle.sin()) as f32, z as f32);
+        Basis::Rgb.to_rgb(scene.escaped(Basis::Rgb, d)).iter().any(|&v| v > 0.0)
+    })
 }
 
 /// The word of the integrator that answers to `kind`, or stands in for it.

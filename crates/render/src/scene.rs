@@ -107,6 +107,8 @@ impl View {
 /// A compiled scene.
 #[derive(Debug)]
 pub struct Scene {
+    /// What compiling found and took.
+    pub report: crate::compile::Report,
     /// What hits belong to.
     pub objects: Vec<Object>,
     /// Materials, as [`Object::material`] numbers them.

@@ -24,6 +24,7 @@ pub use mesh::{Mesh, MeshError};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
 pub use schema::{
-    Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema, find,
+    Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema,
+    TextureNames, find,
 };
 pub use span::{Location, SourceId, Sources, Span};

@@ -1,9 +1,11 @@
 //! What parameters a kind takes: the one source of defaults, checks, help and documentation.
 
 mod args;
+mod names;
 mod param;
 
 pub use args::{Args, ColorInput, FloatInput, Missing};
+pub use names::TextureNames;
 pub use param::{ParamDefault, ParamSpec, ParamType};
 
 use crate::{Diagnostics, Node};

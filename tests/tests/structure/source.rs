@@ -52,7 +52,11 @@ fn collect(folder: &Path, below: &str, found: &mut Vec<Source>) {
         let name = entry.file_name().to_string_lossy().into_owned();
         let path = format!("{below}{name}");
         let kind = entry.file_type().expect("a kind of file");
-        if kind.is_dir() && name != "target" && name != ".git" {
+        // `.git` is a file where a second checkout shares the first one's history.
+        if name == "target" || name == ".git" {
+            continue;
+        }
+        if kind.is_dir() {
             collect(&entry.path(), &format!("{path}/"), found);
         } else if kind.is_file() {
             // What is no UTF-8 is no text.

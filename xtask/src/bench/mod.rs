@@ -6,16 +6,11 @@ mod durer;
 mod povray;
 mod report;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::fs;
 
 use anyhow::{Context, bail};
-use serde_json::Value;
 
-use crate::{cargo, root};
+use crate::{release_program, root, target_folder};
 
 /// Pixels per row.
 const WIDTH: u32 = 1280;
@@ -92,15 +87,10 @@ fn median(mut values: Vec<f64>) -> f64 {
 /// Builds, renders in turns, reports.
 pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     let target = target_folder()?;
-    eprintln!("==> cargo build --release");
-    let built = Command::new(cargo()).args(["build", "--release"]).current_dir(root()?).status()?;
-    if !built.success() {
-        bail!("durer cannot be built");
-    }
+    let program = release_program()?;
     let folder = target.join("bench");
     fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let scenes = root()?.join("benches");
-    let program = target.join("release").join(format!("durer{}", std::env::consts::EXE_SUFFIX));
     let with_povray = povray::is_installed();
     if !with_povray {
         eprintln!("povray is not installed: durer runs alone (on Debian: apt-get install povray)");
@@ -114,14 +104,6 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
         }
     }
     report::print(&ours, &theirs, options.json)
-}
-
-fn target_folder() -> anyhow::Result<PathBuf> {
-    let words = ["metadata", "--format-version", "1", "--no-deps", "--offline"];
-    let output = Command::new(cargo()).args(words).current_dir(root()?).output()?;
-    let metadata: Value = serde_json::from_slice(&output.stdout).context("cargo metadata")?;
-    let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;
-    Ok(Path::new(folder).to_path_buf())
 }
 
 #[cfg(test)]

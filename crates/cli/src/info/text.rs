@@ -3,7 +3,11 @@ use std::{fmt::Write, time::Duration};
 
 use durer::{Imported, scene::Severity};
 
-use super::{Info, Named};
+use super::{
+    facts::{Counts, Info, Named, Phases},
+    memory::Memory,
+    texture::TextureFacts,
+};
 use crate::{
     number::{bytes, count, seconds},
     report::{self, Looks},
@@ -19,34 +23,67 @@ pub(super) fn table(info: &Info<'_>, imported: &Imported) -> String {
     };
     row("scene", info.scene.to_owned());
     row("format", info.format.unwrap_or("unknown").to_owned());
-    let c = &info.counts;
-    row("shapes", format!("{} ({} moving), {} meshes", c.shapes, c.moving_shapes, c.meshes));
-    let of = |n: Option<u64>| n.map_or_else(|| "?".to_owned(), count);
-    row(
-        "kernel",
-        format!("{} triangles, {} instances, {} nodes", of(c.triangles), of(c.instances), of(c.nodes)),
-    );
+    shapes(&info.counts, &mut row);
     if let Some(b) = &info.bounds {
         row("bounds", format!("{} to {}", place(b.min), place(b.max)));
     }
-    row("textures", c.textures.to_string());
+    row("textures", textures(&info.textures));
     row("cameras", names(&info.cameras));
     row("lights", names(&info.lights));
     row("materials", names(&info.materials));
     row("film", film(info));
     row("integrator", info.integrator.unwrap_or("not said").to_owned());
     if let Some(m) = &info.memory {
-        let (hierarchy, meshes, film) = (bytes(m.hierarchy), bytes(m.meshes), bytes(m.film));
-        row("memory", format!("about {hierarchy} hierarchy, {meshes} meshes, {film} film"));
+        row("memory", memory(m));
     }
-    let [load, build] = [info.seconds.load, info.seconds.build].map(|s| seconds(Duration::from_secs_f64(s)));
-    row("time", format!("load {load}, build {build}"));
+    row("time", time(&info.seconds));
+    let c = &info.complaints;
+    row("complaints", format!("{} errors, {} warnings, {} notes", c.errors, c.warnings, c.notes));
     match info.doctor.as_slice() {
         [] => row("doctor", "nothing odd found".to_owned()),
         findings => findings.iter().for_each(|f| row("doctor", f.clone())),
     }
-    let complaints = report::render(imported, Severity::Note, Looks::PLAIN);
+    let complaints = report::render(info.scene, imported, Severity::Note, Looks::PLAIN);
     if complaints.is_empty() { text } else { format!("{text}\n{complaints}") }
+}
+
+fn shapes(c: &Counts, row: &mut impl FnMut(&str, String)) {
+    let of = |n: Option<u64>| n.map_or_else(|| "?".to_owned(), count);
+    let meshes = format!("{} meshes", c.meshes);
+    row(
+        "shapes",
+        format!("{} ({} moving, {} no meshes), {meshes}", c.shapes, c.moving_shapes, of(c.other_shapes)),
+    );
+    let [placed, described] = [c.triangles_placed, c.triangles_described].map(of);
+    row("triangles", format!("{placed}, of these {described} different; {} vertices", of(c.vertices)));
+    let [triangles, instances, nodes] = [c.triangles, c.instances, c.nodes].map(of);
+    row("kernel", format!("{triangles} triangles, {instances} instances, {nodes} nodes"));
+}
+
+fn memory(m: &Memory) -> String {
+    let [hierarchy, expected] = [m.hierarchy, m.hierarchy_expected].map(bytes);
+    let [meshes, placed, textures, film] = [m.meshes, m.meshes_placed, m.textures, m.film].map(bytes);
+    let peak = m.peak.map(|peak| format!("; {} at most so far", bytes(peak))).unwrap_or_default();
+    format!(
+        "hierarchy {hierarchy} (expected {expected}), meshes {meshes} and {placed} placed, textures {textures}, \
+         film {film}{peak}"
+    )
+}
+
+fn time(s: &Phases) -> String {
+    let shown = |s: f64| seconds(Duration::from_secs_f64(s));
+    let parts = [("textures", s.textures), ("geometry", s.geometry), ("acceleration", s.acceleration)];
+    let parts = parts.iter().filter_map(|(name, s)| s.map(|s| format!("{name} {}", shown(s))));
+    let parts = parts.collect::<Vec<_>>().join(", ");
+    format!("load {}, build {} ({parts}), total {}", shown(s.load), shown(s.build), shown(s.total))
+}
+
+fn textures(list: &[TextureFacts<'_>]) -> String {
+    listed(list, |t| {
+        let size = t.width.zip(t.height).map(|(w, h)| format!(" {w} x {h}"));
+        let image = t.image.filter(|image| *image != t.name).map(|image| format!(" {image}"));
+        format!("{} ({}{}{})", t.name, t.kind, image.unwrap_or_default(), size.unwrap_or_default())
+    })
 }
 
 fn place(p: [f64; 3]) -> String {
@@ -54,9 +91,11 @@ fn place(p: [f64; 3]) -> String {
 }
 
 fn names(list: &[Named<'_>]) -> String {
-    let one = |n: &Named<'_>| {
-        if n.name.is_empty() { n.kind.to_owned() } else { format!("{} ({})", n.name, n.kind) }
-    };
+    listed(list, |n| if n.name.is_empty() { n.kind.to_owned() } else { format!("{} ({})", n.name, n.kind) })
+}
+
+/// How many there are, and the first of them.
+fn listed<T>(list: &[T], one: impl Fn(&T) -> String) -> String {
     let mut text = list.iter().take(MOST_NAMES).map(one).collect::<Vec<_>>().join(", ");
     if list.len() > MOST_NAMES {
         let _ = write!(text, ", and {} more", list.len() - MOST_NAMES);

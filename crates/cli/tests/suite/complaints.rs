@@ -43,6 +43,29 @@ fn texts_that_end_early_or_hold_other_letters_do_not_break_the_report() {
 }
 
 #[test]
+fn what_a_file_holds_cannot_command_the_terminal() {
+    let gltf = r#"{"asset": {"version": "2.0"}, "materials": [{"name": "a\u001b[2Jb", "\u001b[31m": {}}],
+        "meshes": [{"\u001b]0;x\u0007": 0, "primitives": 3}]}"#;
+    let pbrt = "WorldBegin\nMakeNamedMaterial \"a\u{1b}[2Jb\" \"string type\" \"diffuse\"\nShape \"\u{1b}[31msphere\u{9b}\"\n";
+    let fine =
+        "WorldBegin\nMakeNamedMaterial \"a\u{1b}[2Jb\" \"string type\" \"diffuse\"\nShape \"sphere\"\n";
+    let place = Place::new().with("a.gltf", gltf).with("b.pbrt", pbrt).with("c.pbrt", fine);
+    for scene in ["a.gltf", "b.pbrt", "c.pbrt"] {
+        let ran = place.run(&format!("info {scene}"));
+        let said = format!("{}{}", ran.stdout, ran.stderr);
+        assert!(
+            said.len() > 20 && !said.contains(|c: char| c.is_control() && c != '\n'),
+            "{scene}: {said:?}"
+        );
+    }
+    assert!(place.done("info c.pbrt").stdout.contains("a?[2Jb"));
+    let bad = place.run("info b.pbrt").stderr;
+    let lines: Vec<&str> = bad.lines().collect();
+    let text = lines.iter().position(|l| l.contains("Shape \"?[31msphere??\"")).expect("the offending line");
+    assert_eq!(lines[text + 1].find('^'), lines[text].find("\"?[31m"), "the caret is below\n{bad}");
+}
+
+#[test]
 fn missing_files_are_named_once() {
     let place = Place::new();
     for name in ["nothing.pbrt", "nothing.glb", "nothing.gltf"] {

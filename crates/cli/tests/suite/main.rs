@@ -2,6 +2,7 @@
 
 mod complaints;
 mod environment;
+mod info;
 mod interrupt;
 mod pictures;
 mod run;

@@ -2,6 +2,7 @@
 use std::{
     collections::{HashMap, hash_map::Entry},
     sync::Arc,
+    time::{Duration, Instant},
 };
 
 use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, Engine, GeometryId, Placement, Triangles};
@@ -26,6 +27,8 @@ pub(super) struct Placed {
     pub(super) merged: Vec<MergedMesh>,
     pub(super) shapes: Vec<PlacedShape>,
     pub(super) movers: Vec<PlacedShape>,
+    /// What the trees took.
+    pub(super) building: Duration,
 }
 
 /// How shapes are placed.
@@ -165,6 +168,7 @@ impl Placing<'_> {
             pending.meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
 
         let (merged, triangles) = merge(single);
+        let start = Instant::now();
         if !merged.is_empty() {
             let geometry = kernel.triangles(triangles)?;
             kernel.instance(geometry, Placement::Identity)?;
@@ -194,7 +198,9 @@ impl Placing<'_> {
             targets.push(Target::Mesh(object, mesh));
         }
         let movers = pending.movers.into_iter().map(|(mover, _)| mover).collect();
-        Ok(Placed { accel: kernel.build(), objects, targets, merged, shapes: pending.shapes, movers })
+        let accel = kernel.build();
+        let building = start.elapsed();
+        Ok(Placed { accel, objects, targets, merged, shapes: pending.shapes, movers, building })
     }
 }
 

@@ -7,6 +7,9 @@
 mod automatic;
 mod geometry;
 mod nodes;
+mod report;
+
+use std::time::{Duration, Instant};
 
 use durer_accel::Engine;
 use durer_core::{
@@ -19,6 +22,7 @@ use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node
 use crate::{Scene, View, integrator::Integrator};
 
 pub use nodes::integrator;
+pub use report::{GeometryCounts, Report, Times};
 
 /// How to compile, beyond what the description says.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,10 +65,11 @@ pub fn compile(
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
-    let mut nodes = nodes::Builder { desc, assets, missing: options.missing, diagnostics };
-    let textures = nodes.textures();
-    let mut materials = nodes.materials();
-    let shapes = nodes.shapes();
+    let names = durer_scene::TextureNames::of(&desc.textures);
+    let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
+    let ((textures, mut materials), of_textures) = timed(|| (nodes.textures(), nodes.materials()));
+    let (shapes, of_shapes) = timed(|| nodes.shapes());
+    let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
     let camera = chosen_camera(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
@@ -87,14 +92,15 @@ pub fn compile(
 
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
-    let placed = geometry::Placing {
+    let placing = geometry::Placing {
         desc,
         render_from_world: DAffine3::from_translation(-origin),
         default_material,
         engine: options.engine,
-    }
-    .place(shapes, diagnostics);
+    };
+    let (placed, of_placing) = timed(|| placing.place(shapes, diagnostics));
     let (view, placed) = (view?, placed?);
+    let report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
     if diagnostics.has_errors() {
         return None;
     }
@@ -103,6 +109,7 @@ pub fn compile(
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
     Some(Scene {
+        report,
         objects: placed.objects,
         materials,
         textures,
@@ -118,6 +125,13 @@ pub fn compile(
         movers: placed.movers,
         has_holes,
     })
+}
+
+/// What `work` makes, and how long it takes.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let made = work();
+    (made, start.elapsed())
 }
 
 /// The camera the options name, else the first.

@@ -14,7 +14,7 @@ use durer_model::{
 };
 use durer_scene::{
     Args, Assets, Diagnostics, Entry, LightDesc, Location, Missing, Node, Params, SceneDesc, ShapeDesc,
-    ShapeSource, TextureDesc, find,
+    ShapeSource, TextureDesc, TextureNames, find,
 };
 
 use rayon::prelude::*;
@@ -26,6 +26,7 @@ pub(super) struct Builder<'a> {
     pub(super) desc: &'a SceneDesc,
     pub(super) assets: &'a dyn Assets,
     pub(super) missing: Missing,
+    pub(super) names: &'a TextureNames<'a>,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
@@ -52,8 +53,9 @@ impl Builder<'_> {
     ) -> (Option<T>, Diagnostics) {
         let mut said = Diagnostics::default();
         let built = find(registry, family, node, &mut said).and_then(|entry| {
-            let mut args =
-                Args::check(node, entry.schema, textures, &mut said).with_assets(self.assets, self.missing);
+            let mut args = Args::check(node, entry.schema, textures, &mut said)
+                .with_assets(self.assets, self.missing)
+                .with_names(self.names);
             let built = (entry.build)(&mut args);
             args.is_sound().then_some(built).flatten()
         });

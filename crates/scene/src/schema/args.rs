@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use durer_core::spectrum::Color;
 
-use super::{ParamDefault, ParamSpec, ParamType, Schema};
+use super::{ParamDefault, ParamSpec, ParamType, Schema, TextureNames};
 use crate::{
     AssetError, Assets, Data, Diagnostics, Image, Location, Node, Param, TextureDesc, TextureValue, ValueType,
 };
@@ -41,6 +41,7 @@ pub struct Args<'a> {
     node: &'a Node,
     schema: Schema,
     textures: &'a [TextureDesc],
+    names: Option<&'a TextureNames<'a>>,
     diagnostics: &'a mut Diagnostics,
     assets: Option<(&'a dyn Assets, Missing)>,
     sound: bool,
@@ -54,7 +55,7 @@ impl<'a> Args<'a> {
         textures: &'a [TextureDesc],
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
-        let mut args = Self { node, schema, textures, diagnostics, assets: None, sound: true };
+        let mut args = Self { node, schema, textures, names: None, diagnostics, assets: None, sound: true };
         for param in node.params.iter() {
             match schema.params.iter().find(|s| s.name == param.name) {
                 Some(spec) => args.check_param(param, spec),
@@ -74,6 +75,13 @@ impl<'a> Args<'a> {
             }
         }
         args
+    }
+
+    /// The same, with the names of a list that begins with these textures: they are found faster.
+    #[must_use]
+    pub fn with_names(mut self, names: &'a TextureNames<'a>) -> Self {
+        self.names = Some(names);
+        self
     }
 
     /// The same, with files at hand.
@@ -314,7 +322,10 @@ impl<'a> Args<'a> {
 
     fn texture(&mut self, param: &Param, names: &[String], value: TextureValue) -> Option<u32> {
         let name = names.first()?;
-        let found = self.textures.iter().position(|t| t.value == value && &t.name == name);
+        let found = match self.names {
+            Some(names) => names.find(value, name).filter(|&index| index < self.textures.len()),
+            None => self.textures.iter().position(|t| t.value == value && &t.name == name),
+        };
         if found.is_none() {
             self.sound = false;
             let what = match value {

@@ -1,0 +1,205 @@
+//! The facts about a scene. Field names are the keys of the JSON form, a contract; `docs/json.md` lists them.
+use std::path::Path;
+
+use durer::{
+    FORMATS, Prepared, builtin,
+    scene::{Diagnostics, NamedNode, Node, SceneDesc, Severity, ShapeDesc},
+};
+use serde::Serialize;
+
+use super::{
+    doctor,
+    memory::Memory,
+    texture::{self, TextureFacts},
+};
+use crate::{load::Loaded, report::Complaint};
+
+#[derive(Serialize)]
+pub(super) struct Info<'a> {
+    pub(super) version: u32,
+    pub(super) scene: &'a str,
+    pub(super) format: Option<&'static str>,
+    pub(super) counts: Counts,
+    pub(super) bounds: Option<WorldBounds>,
+    pub(super) cameras: Vec<Named<'a>>,
+    pub(super) lights: Vec<Named<'a>>,
+    pub(super) materials: Vec<Named<'a>>,
+    pub(super) textures: Vec<TextureFacts<'a>>,
+    pub(super) film: Film<'a>,
+    /// What the scene asks for.
+    pub(super) integrator: Option<&'a str>,
+    pub(super) memory: Option<Memory>,
+    pub(super) seconds: Phases,
+    pub(super) doctor: Vec<String>,
+    pub(super) complaints: Complaints,
+    pub(super) diagnostics: Vec<Complaint<'a>>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Counts {
+    pub(super) shapes: usize,
+    pub(super) moving_shapes: usize,
+    pub(super) meshes: usize,
+    pub(super) materials: usize,
+    pub(super) textures: usize,
+    pub(super) lights: usize,
+    pub(super) cameras: usize,
+    /// Of all meshes, a shared mesh once.
+    pub(super) vertices: Option<u64>,
+    /// The same.
+    pub(super) triangles_described: Option<u64>,
+    /// A shared mesh as often as it is placed.
+    pub(super) triangles_placed: Option<u64>,
+    /// Placed shapes that are no meshes.
+    pub(super) other_shapes: Option<u64>,
+    /// In the kernel, a shared mesh once.
+    pub(super) triangles: Option<u64>,
+    /// In the kernel: the merged still meshes, the shapes that are none, and each shared or moving mesh.
+    pub(super) instances: Option<u64>,
+    pub(super) nodes: Option<u64>,
+}
+
+#[derive(Serialize)]
+pub(super) struct WorldBounds {
+    pub(super) min: [f64; 3],
+    pub(super) max: [f64; 3],
+}
+
+#[derive(Serialize)]
+pub(super) struct Named<'a> {
+    pub(super) name: &'a str,
+    pub(super) kind: &'a str,
+}
+
+#[derive(Serialize)]
+pub(super) struct Film<'a> {
+    pub(super) width: Option<u32>,
+    pub(super) height: Option<u32>,
+    pub(super) spp: Option<u32>,
+    pub(super) filename: Option<&'a str>,
+}
+
+/// Wall time.
+#[derive(Serialize)]
+pub(super) struct Phases {
+    /// Reading and parsing.
+    pub(super) load: f64,
+    /// All of compilation, which holds the next three.
+    pub(super) build: f64,
+    pub(super) textures: Option<f64>,
+    pub(super) geometry: Option<f64>,
+    pub(super) acceleration: Option<f64>,
+    /// `load` and `build`.
+    pub(super) total: f64,
+}
+
+/// How many of `diagnostics` are how bad.
+#[derive(Serialize)]
+pub(super) struct Complaints {
+    pub(super) errors: usize,
+    pub(super) warnings: usize,
+    pub(super) notes: usize,
+}
+
+impl<'a> Info<'a> {
+    pub(super) fn new(scene: &'a str, loaded: &'a Loaded) -> Self {
+        let Loaded { imported, prepared, .. } = loaded;
+        let desc = &imported.desc;
+        let prepared = prepared.as_ref();
+        let textures = texture::of(desc, prepared.map(|_| &imported.assets));
+        Self {
+            version: 1,
+            scene,
+            format: format(scene),
+            counts: Counts::new(desc, prepared),
+            bounds: prepared.and_then(world_bounds),
+            cameras: desc.cameras.iter().map(|c| named(&c.name, &c.node)).collect(),
+            lights: desc.lights.iter().map(|l| named(&l.name, &l.node)).collect(),
+            materials: desc.materials.iter().map(|NamedNode { name, node }| named(name, node)).collect(),
+            memory: prepared.map(|p| Memory::new(p, texture::image_bytes(desc, &imported.assets))),
+            textures,
+            film: Film {
+                width: desc.film.width,
+                height: desc.film.height,
+                spp: desc.film.samples,
+                filename: desc.film.filename.as_deref(),
+            },
+            integrator: desc.integrator.as_ref().map(|n| n.kind.as_str()),
+            seconds: Phases::new(loaded),
+            doctor: prepared.map(|p| doctor::findings(desc, p)).unwrap_or_default(),
+            complaints: Complaints::new(&imported.diagnostics),
+            diagnostics: Complaint::all(imported),
+        }
+    }
+}
+
+fn named<'a>(name: &'a str, node: &'a Node) -> Named<'a> {
+    Named { name, kind: &node.kind }
+}
+
+/// The format of a file: by its last suffix, and by the one before it where that names a compression.
+fn format(scene: &str) -> Option<&'static str> {
+    if builtin::find(scene).is_some() {
+        return Some("built-in");
+    }
+    let lower = scene.to_lowercase();
+    let suffix = Path::new(lower.strip_suffix(".gz").unwrap_or(&lower)).extension()?.to_str()?.to_owned();
+    FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())).map(|f| f.name)
+}
+
+impl Counts {
+    fn new(desc: &SceneDesc, prepared: Option<&Prepared>) -> Self {
+        let built = prepared.map(|p| p.scene.accel.stats());
+        let geometry = prepared.map(|p| p.scene.report.geometry);
+        let moves = |shape: &&ShapeDesc| !shape.world_from_object.is_still();
+        Self {
+            shapes: desc.shapes.len(),
+            moving_shapes: desc.shapes.iter().filter(moves).count(),
+            meshes: desc.meshes.len(),
+            materials: desc.materials.len(),
+            textures: desc.textures.len(),
+            lights: desc.lights.len(),
+            cameras: desc.cameras.len(),
+            vertices: geometry.map(|g| g.vertices),
+            triangles_described: geometry.map(|g| g.triangles),
+            triangles_placed: geometry.map(|g| g.triangles_placed),
+            other_shapes: geometry.map(|g| g.other_shapes),
+            triangles: built.map(|b| b.triangles),
+            instances: built.map(|b| b.instances),
+            nodes: built.map(|b| b.nodes),
+        }
+    }
+}
+
+/// The box around everything finite; `None` if there is nothing.
+fn world_bounds(prepared: &Prepared) -> Option<WorldBounds> {
+    let bounds = prepared.scene.accel.bounds();
+    let view = &prepared.scene.view;
+    (!bounds.is_empty())
+        .then(|| WorldBounds { min: view.to_world(bounds.min), max: view.to_world(bounds.max) })
+}
+
+impl Phases {
+    fn new(loaded: &Loaded) -> Self {
+        let times = loaded.prepared.as_ref().map(|p| p.scene.report.times);
+        Self {
+            load: loaded.load.as_secs_f64(),
+            build: loaded.build.as_secs_f64(),
+            textures: times.map(|t| t.textures.as_secs_f64()),
+            geometry: times.map(|t| t.geometry.as_secs_f64()),
+            acceleration: times.map(|t| t.acceleration.as_secs_f64()),
+            total: (loaded.load + loaded.build).as_secs_f64(),
+        }
+    }
+}
+
+impl Complaints {
+    fn new(diagnostics: &Diagnostics) -> Self {
+        let count = |severity| diagnostics.iter().filter(|d| d.severity == severity).count();
+        Self {
+            errors: count(Severity::Error),
+            warnings: count(Severity::Warning),
+            notes: count(Severity::Note),
+        }
+    }
+}
