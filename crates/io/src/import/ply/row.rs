@@ -4,7 +4,7 @@ use durer_core::math::{Normal3, Point2, Point3};
 use super::header::{Element, Scalar, Shape};
 use crate::import::{
     color::linear,
-    text::{Complaint, Part, Words, float, integer},
+    text::{Complaint, Part, Tally, Words, float, integer},
 };
 
 /// Where numbers come from.
@@ -230,6 +230,8 @@ pub(super) struct Rows {
     pub(super) coords: Vec<Point2>,
     /// Where each polygon ends in `corners`; empty as long as all are triangles.
     pub(super) ends: Vec<usize>,
+    /// Lines with more numbers than their table has.
+    pub(super) long: Tally,
 }
 
 impl Rows {
@@ -246,6 +248,7 @@ impl Rows {
             self.coords.resize(self.corners.len(), Point2::default());
             later.coords.resize(later.corners.len(), Point2::default());
         }
+        self.long.append(later.long);
         self.positions.append(&mut later.positions);
         self.normals.append(&mut later.normals);
         self.uvs.append(&mut later.uvs);
