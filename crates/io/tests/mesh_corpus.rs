@@ -148,7 +148,10 @@ const BAD: &[(&str, &str)] = &[
     ("tinyobj/invalid-face-definition.obj", "15:1: 2 faces with fewer than 3 corners are left out"),
     ("tinyobj/invalid-relative-vertex-index.obj", "1:3: there are fewer than 4 vertices before this"),
     ("tinyobj/issue-140-zero-face-idx.obj", "16:3: there is no vertex 0"),
-    ("tinyobj/issue-161-inconsistent-f.obj", "2:8: cube.mtl: file not found; its materials are drawn in grey"),
+    (
+        "tinyobj/issue-161-inconsistent-f.obj",
+        "2:8: cube.mtl: file not found; its materials are drawn in grey",
+    ),
     // Nothing is wrong with it: it made another reader fail.
     ("tinyobj/issue-319-002.obj", ""),
     (

@@ -151,8 +151,12 @@ pub(super) fn read(text: Part<'_>, start: Counts, total: Counts) -> Piece {
 impl Piece {
     fn statement(&mut self, line: Part<'_>, word: Part<'_>, words: Words<'_>, counts: [Counts; 2]) {
         let rest = words.rest().trim().range();
+        let words = match word.bytes {
+            b"v" | b"vt" | b"vn" | b"f" => without_comment(words),
+            _ => words,
+        };
         match word.bytes {
-            b"v" | b"vt" | b"vn" if words.rest().bytes.is_empty() => {
+            b"v" | b"vt" | b"vn" if words.clone().next().is_none() => {
                 self.complaints.push(Complaint::error(line.range(), "expected numbers"));
             }
             b"v" => self.position(line, words),
@@ -257,9 +261,6 @@ impl Piece {
         let so_far = start.plus(&here).0;
         let mut lost = 0;
         for word in words {
-            if word.bytes.starts_with(b"#") {
-                break;
-            }
             match corner::resolve(word, so_far, total.0, &mut lost) {
                 Ok(corner) => self.corners.push(corner),
                 Err(wrong) => {
@@ -316,6 +317,15 @@ fn complaint(word: Part<'_>, wrong: Wrong, total: [usize; 3]) -> Complaint {
             let message = format!("there is no vertex {n}: the file has {vertices}");
             Complaint::error(word.range(), message).hint("the file may have been cut off")
         }
+    }
+}
+
+/// Names may hold a `#`, numbers do not.
+fn without_comment(words: Words<'_>) -> Words<'_> {
+    let rest = words.rest();
+    match memchr::memchr(b'#', rest.bytes) {
+        Some(comment) => rest.split(comment).0.words(),
+        None => words,
     }
 }
 
