@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use super::{
     header::{Element, Encoding, Header},
-    row::{Packed, Role, Rows, Written, role},
+    numbers::{Packed, Written},
+    row::{Role, Rows, role},
 };
 use crate::import::text::{Complaint, Part};
 
@@ -75,8 +76,8 @@ impl Plan<'_> {
         let mut current = tables.next();
         // Rows until the current table ends, counted from `first`.
         let mut end = current.map_or(0, |t| t.0.count);
-        let mut number = first;
-        for line in piece.lines().filter(|l| !l.bytes.trim_ascii().is_empty()) {
+        let full = piece.lines().filter(|l| !l.bytes.trim_ascii().is_empty());
+        for (number, line) in (first..).zip(full) {
             while number >= end {
                 current = tables.next();
                 let Some((element, _)) = current else {
@@ -92,7 +93,6 @@ impl Plan<'_> {
             if let Some(word) = numbers.words.next() {
                 rows.long.add(word.range());
             }
-            number += 1;
         }
         Ok(rows)
     }

@@ -5,6 +5,7 @@
 
 mod body;
 mod header;
+mod numbers;
 mod row;
 
 use std::path::Path;
