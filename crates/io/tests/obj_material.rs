@@ -140,7 +140,7 @@ fn images_are_found_beside_the_mtl_file_and_by_their_last_name() {
     for (path, file) in [
         ("images\\dot.png", "materials/images/dot.png"),
         ("C:\\Users\\me\\models\\dot.png", "materials/dot.png"),
-        ("/home/me/dot.png", "dot.png"),
+        ("/models/dot.png", "dot.png"),
         ("my dot.png", "materials/my dot.png"),
     ] {
         let mtl = format!("newmtl m\nmap_Kd {path}\n");
