@@ -90,7 +90,7 @@ impl Plan<'_> {
             };
             let mut numbers = Written::new(line);
             rows.row(element, role, self.vertices, &mut numbers)?;
-            if let Some(word) = numbers.words.next() {
+            if let Some(word) = numbers.left() {
                 rows.long.add(word.range());
             }
         }
@@ -103,7 +103,7 @@ impl Plan<'_> {
         let mut numbers = Written::new(body);
         for (element, role) in &self.tables {
             for done in 0..element.count {
-                if numbers.words.clone().next().is_none() {
+                if numbers.left().is_none() {
                     return Err(short(element, done));
                 }
                 rows.row(element, role, self.vertices, &mut numbers)?;

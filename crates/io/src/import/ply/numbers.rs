@@ -1,6 +1,6 @@
 //! Numbers one after another, as text or as bytes.
 use super::header::Scalar;
-use crate::import::text::{Complaint, Part, Words, float, integer};
+use crate::import::text::{Complaint, Part, float, leading_float, leading_integer};
 
 /// Where numbers come from.
 pub(super) trait Numbers {
@@ -16,21 +16,39 @@ pub(super) trait Numbers {
 
 /// Numbers as words.
 pub(super) struct Written<'t> {
-    pub(super) words: Words<'t>,
+    rest: Part<'t>,
     last: Part<'t>,
 }
 
 impl<'t> Written<'t> {
     pub(super) fn new(text: Part<'t>) -> Self {
-        Self { words: text.words(), last: text }
+        Self { rest: text, last: text }
+    }
+    /// Goes to the next word.
+    #[inline]
+    fn ahead(&mut self) {
+        let space = self.rest.bytes.iter().position(|b| !b.is_ascii_whitespace());
+        self.rest = self.rest.split(space.unwrap_or(self.rest.bytes.len())).1;
+    }
+    /// Passes over `len` bytes of a word.
+    #[inline]
+    fn pass(&mut self, len: usize) {
+        (self.last, self.rest) = self.rest.split(len);
+    }
+    /// The next word, if there is one.
+    pub(super) fn left(&mut self) -> Option<Part<'t>> {
+        self.ahead();
+        let end = self.rest.bytes.iter().position(u8::is_ascii_whitespace);
+        let (word, _) = self.rest.split(end.unwrap_or(self.rest.bytes.len()));
+        (!word.bytes.is_empty()).then_some(word)
     }
     fn word(&mut self) -> Result<Part<'t>, Complaint> {
-        let Some(word) = self.words.next() else {
+        let Some(word) = self.left() else {
             let end = self.last.range().end;
             let start = self.last.range().start.max(end.saturating_sub(60));
             return Err(Complaint::error(start..end, "a number is missing behind this"));
         };
-        self.last = word;
+        self.pass(word.bytes.len());
         Ok(word)
     }
 }
@@ -38,17 +56,26 @@ impl<'t> Written<'t> {
 impl Numbers for Written<'_> {
     #[inline]
     fn float(&mut self, _: Scalar) -> Result<f32, Complaint> {
+        self.ahead();
+        if let Some((value, len)) = leading_float(self.rest.bytes) {
+            self.pass(len);
+            return Ok(value);
+        }
         let word = self.word()?;
-        float(word.bytes).ok_or_else(|| {
-            Complaint::error(word.range(), format!("expected a number, found \"{}\"", word.shown()))
-        })
+        let message =
+            || Complaint::error(word.range(), format!("expected a number, found \"{}\"", word.shown()));
+        float(word.bytes).ok_or_else(message)
     }
     #[inline]
     fn integer(&mut self, _: Scalar) -> Result<i64, Complaint> {
+        self.ahead();
+        if let Some((value, len)) = leading_integer(self.rest.bytes) {
+            self.pass(len);
+            return Ok(value);
+        }
         let word = self.word()?;
-        integer(word.bytes).ok_or_else(|| {
-            Complaint::error(word.range(), format!("expected a whole number, found \"{}\"", word.shown()))
-        })
+        let message = format!("expected a whole number, found \"{}\"", word.shown());
+        Err(Complaint::error(word.range(), message))
     }
     fn skip(&mut self, _: Scalar, count: usize) -> Result<(), Complaint> {
         (0..count).try_for_each(|_| self.word().map(|_| ()))
