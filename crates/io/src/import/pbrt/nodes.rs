@@ -86,13 +86,19 @@ impl Parser<'_> {
         let (kind, params) = self.kind_and_params(head, "a kind of shape")?;
         let mut params = self.inherit(Target::Shape, params, &kind);
         let name = self.name(&mut params);
-        self.world.shape(PlacedShape {
+        let at = kind.at;
+        let fits = self.world.shape(PlacedShape {
             name,
             node: Arc::new(Node { kind: kind.text, params: stored(params), at: kind.at.into() }),
-            placement: self.state.ctm,
+            placement: self.state.ctm.clone(),
             material: self.state.material,
             reverse: self.state.reverse,
         });
+        if let Err(message) = fits
+            && self.first_time(message)
+        {
+            self.input.error(at, message);
+        }
         Ok(())
     }
 
