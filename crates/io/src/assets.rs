@@ -12,25 +12,32 @@ use std::{
 
 use durer_scene::{AssetError, Assets, Image, Limits, Mesh};
 
+use crate::gzip;
+
 /// Files below one folder, and images embedded in the scene file itself.
 #[derive(Debug)]
 pub struct FileAssets {
     folder: PathBuf,
     limits: Limits,
     embedded: BTreeMap<String, Arc<[u8]>>,
-    images: Mutex<HashMap<String, Arc<Image>>>,
+    images: Cache<Image>,
+    meshes: Cache<Mesh>,
 }
+
+/// What was decoded, by path.
+type Cache<T> = Mutex<HashMap<String, Arc<T>>>;
 
 impl FileAssets {
     /// Assets below `folder`; the empty path is the current folder.
     pub fn new(folder: PathBuf, limits: Limits) -> Self {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        Self { folder, limits, embedded: BTreeMap::new(), images: Mutex::new(HashMap::new()) }
+        Self { folder, limits, embedded: BTreeMap::new(), images: Cache::default(), meshes: Cache::default() }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
     pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
         let name = name.into();
-        self.cache().remove(&name);
+        entries(&self.images).remove(&name);
+        entries(&self.meshes).remove(&name);
         self.embedded.insert(name, bytes.into());
     }
     /// The limits that reading keeps to.
@@ -49,10 +56,25 @@ impl FileAssets {
         // Only the canonical paths tell whether a symbolic link leads out.
         if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
     }
-    fn cache(&self) -> MutexGuard<'_, HashMap<String, Arc<Image>>> {
-        // The map is whole even if a thread died while it held the lock: entries are inserted in one step.
-        self.images.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn entries<T>(cache: &Cache<T>) -> MutexGuard<'_, HashMap<String, Arc<T>>> {
+    // The map is whole even if a thread died while it held the lock: entries are inserted in one step.
+    cache.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What is known by the name of `path`, or what `read` makes of it. Read without the lock, so that several files can be
+/// read at the same time.
+fn cached<T>(
+    cache: &Cache<T>,
+    path: &str,
+    read: impl FnOnce() -> Result<T, AssetError>,
+) -> Result<Arc<T>, AssetError> {
+    if let Some(known) = entries(cache).get(path) {
+        return Ok(Arc::clone(known));
     }
+    let read = Arc::new(read()?);
+    Ok(Arc::clone(entries(cache).entry(path.to_owned()).or_insert(read)))
 }
 
 impl Assets for FileAssets {
@@ -60,21 +82,18 @@ impl Assets for FileAssets {
     /// of that name.
     fn bytes(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
         if let Some(bytes) = self.embedded.get(path) {
-            return Ok(Arc::clone(bytes));
+            return match gzip::is_packed(bytes) {
+                true => gzip::unpack(bytes, path, self.limits).map(Arc::from),
+                false => Ok(Arc::clone(bytes)),
+            };
         }
         read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
     }
     fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
-        let reason = "PLY files are not read yet".to_owned();
-        Err(AssetError::Unsupported { path: path.to_owned(), reason })
+        cached(&self.meshes, path, || crate::import::ply::mesh(&self.bytes(path)?, path))
     }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
-        if let Some(image) = self.cache().get(path) {
-            return Ok(Arc::clone(image));
-        }
-        // Decoded without the lock, so that several images can be decoded at the same time.
-        let image = Arc::new(crate::image::read(&self.bytes(path)?, path, self.limits)?);
-        Ok(Arc::clone(self.cache().entry(path.to_owned()).or_insert(image)))
+        cached(&self.images, path, || crate::image::read(&self.bytes(path)?, path, self.limits))
     }
 }
 
@@ -103,10 +122,10 @@ fn io_error(path: &str, error: &std::io::Error) -> AssetError {
     }
 }
 
-/// Reads `file`, which messages call `name`, if it is no longer than the limits allow.
+/// Reads `file`, which messages call `name`, if it is no longer than the limits allow; unpacks it if it is gzip.
 ///
 /// # Errors
-/// If it is longer, or cannot be read.
+/// If it is longer, damaged, or cannot be read.
 pub(crate) fn read_file(file: &Path, name: &str, limits: Limits) -> Result<Vec<u8>, AssetError> {
     let fail = |e: std::io::Error| io_error(name, &e);
     let too_long = |length: u64| AssetError::Limits {
@@ -128,5 +147,5 @@ pub(crate) fn read_file(file: &Path, name: &str, limits: Limits) -> Result<Vec<u
     if bytes.len() as u64 > limits.file_bytes {
         return Err(too_long(bytes.len() as u64));
     }
-    Ok(bytes)
+    if gzip::is_packed(&bytes) { gzip::unpack(&bytes, name, limits) } else { Ok(bytes) }
 }

@@ -2,8 +2,15 @@
 //!
 //! A new format is one file here and one line in [`FORMATS`].
 
+mod color;
 mod gltf;
+mod obj;
 pub mod pbrt;
+pub(crate) mod ply;
+mod polygon;
+mod stl;
+mod text;
+mod unify;
 
 use std::path::{Path, PathBuf};
 
@@ -50,25 +57,34 @@ pub struct Format {
 pub const FORMATS: &[Format] = &[
     Format { name: "glTF 2.0", suffixes: &["gltf", "glb"], read: gltf::read },
     Format { name: "pbrt", suffixes: &["pbrt"], read: pbrt::read },
+    Format { name: "Wavefront OBJ", suffixes: &["obj"], read: obj::read },
+    Format { name: "PLY", suffixes: &["ply"], read: ply::read },
+    Format { name: "STL", suffixes: &["stl"], read: stl::read },
 ];
 
-/// Reads the scene file at `path`, in any letter case of its suffix. Never fails: what went wrong is in
-/// [`Imported::diagnostics`].
+/// Reads the scene file at `path`, in any letter case of its suffix, behind which `.gz` may stand. Never fails: what
+/// went wrong is in [`Imported::diagnostics`].
 pub fn open(path: &Path, limits: Limits) -> Imported {
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
     let mut imported = Imported::new(folder, limits);
-    imported.desc.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let unpacked = if suffix(path) == "gz" { path.with_extension("") } else { path.to_owned() };
+    imported.desc.name = unpacked.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let suffix = suffix(&unpacked);
     match FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())) {
         Some(format) => (format.read)(path, &mut imported),
         None => {
             let known: Vec<_> = FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
             let message = format!("{}: not a scene format durer reads", path.display());
-            imported
-                .diagnostics
-                .error(durer_scene::Location::None, message)
-                .hint(format!("expected a file ending in {}", known.join(", ")));
+            imported.diagnostics.error(durer_scene::Location::None, message).hint(format!(
+                "expected a file ending in {}; it may be packed with gzip (.gz)",
+                known.join(", ")
+            ));
         }
     }
     imported
+}
+
+/// In lower case, without dot.
+fn suffix(path: &Path) -> String {
+    path.extension().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default()
 }

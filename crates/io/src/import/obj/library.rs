@@ -1,0 +1,196 @@
+//! Material files: finding those that `mtllib` names, and which material `usemtl` means.
+//!
+//! The line may name one file with spaces or several. Paths are relative to the OBJ file; of one that leads nowhere, or
+//! out of the folder (such as an absolute path of the machine the file was made on), the last name is tried beside the
+//! OBJ file, then the OBJ file's own name with the suffix `.mtl`. What is not found leaves the shapes grey.
+use std::{
+    collections::{HashMap, HashSet},
+    ops::Range,
+    sync::Arc,
+};
+
+use durer_core::Id;
+use durer_scene::{AssetError, Assets, MaterialRef, NamedNode};
+
+use super::{
+    material,
+    mtl::{self, Material},
+    piece::{Event, Model},
+    texture::Textures,
+};
+use crate::import::{
+    Imported,
+    text::{Complaint, Part, tell},
+};
+
+/// Materials by name.
+#[derive(Debug, Default)]
+pub(super) struct Library {
+    materials: HashMap<String, MaterialRef>,
+}
+
+impl Library {
+    /// The material called `name`.
+    pub(super) fn get(&self, name: &str) -> Option<MaterialRef> {
+        self.materials.get(name).copied()
+    }
+}
+
+/// A file that was found.
+struct Found {
+    path: String,
+    bytes: Arc<[u8]>,
+}
+
+/// Loads the materials that faces use.
+pub(super) fn load(
+    text: Part<'_>,
+    model: &Model,
+    complaints: &mut Vec<Complaint>,
+    imported: &mut Imported,
+) -> Library {
+    let (files, used) = wanted(text, model);
+    let mut said = HashSet::new();
+    let (mut all, mut seen): (Vec<(Material, String)>, HashSet<String>) = (Vec::new(), HashSet::new());
+    for (line, at) in &files {
+        for found in find(line, at, imported, complaints) {
+            if !said.insert(found.path.clone()) {
+                continue;
+            }
+            let (materials, problems) = mtl::parse(&found.bytes);
+            tell(problems, &found.path, &found.bytes, imported);
+            let folder = found.path.replace('\\', "/");
+            let folder = folder.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let fresh = materials.into_iter().filter(|m| seen.insert(m.name.clone()));
+            all.extend(fresh.map(|m| (m, folder.to_owned())));
+        }
+    }
+    all.retain(|(m, _)| used.iter().any(|(name, _)| *name == m.name));
+    let mut library = Library::default();
+    let mut textures = Textures::load(&all, imported);
+    for (made, folder) in &all {
+        let node = material::node(made, folder, &mut textures);
+        let materials = &mut imported.desc.materials;
+        library.materials.insert(made.name.clone(), Id::new(materials.len() as u32));
+        materials.push(NamedNode { name: made.name.clone(), node });
+    }
+    imported.desc.textures = std::mem::take(&mut textures.list);
+    complaints.extend(textures.complaints());
+    complaints.extend(unknown(&files, used, &library));
+    library
+}
+
+/// Names of materials that faces use, where they are not found.
+fn unknown(
+    files: &[(String, Range<usize>)],
+    used: Vec<(String, Range<usize>)>,
+    library: &Library,
+) -> Vec<Complaint> {
+    let missing = used.into_iter().filter(|(name, _)| library.get(name).is_none());
+    if files.is_empty() {
+        let first = missing.take(1);
+        let message = "the file uses materials, but names no file that holds them (mtllib); drawn in grey";
+        return first.map(|(_, at)| Complaint::error(at, message).warning()).collect();
+    }
+    let warning = |(name, at): (String, Range<usize>)| {
+        let warning =
+            Complaint::error(at, format!("there is no material \"{name}\"; drawn in grey")).warning();
+        match durer_scene::nearest_word(&name, library.materials.keys().map(String::as_str)) {
+            Some(near) => warning.hint(format!("did you mean \"{near}\"?")),
+            None => warning,
+        }
+    };
+    missing.take(8).map(warning).collect()
+}
+
+/// The `mtllib` lines, and the materials used with their first places.
+#[expect(clippy::type_complexity, reason = "two lists of names with places")]
+fn wanted(text: Part<'_>, model: &Model) -> (Vec<(String, Range<usize>)>, Vec<(String, Range<usize>)>) {
+    let (mut files, mut used) = (Vec::new(), Vec::new());
+    let mut seen = HashSet::new();
+    for (_, event) in model.pieces.iter().flat_map(|p| &p.events) {
+        let (Event::Library(range) | Event::Material(range)) = event else {
+            continue;
+        };
+        let bytes = text.bytes.get(range.start - text.at..range.end - text.at).unwrap_or_default();
+        let name = Part { bytes, at: range.start }.text();
+        let is_file = matches!(event, Event::Library(_));
+        if name.is_empty() || !seen.insert((is_file, name.clone())) {
+            continue;
+        }
+        if is_file { files.push((name, range.clone())) } else { used.push((name, range.clone())) }
+    }
+    (files, used)
+}
+
+/// The files that the rest of a `mtllib` line names.
+fn find(line: &str, at: &Range<usize>, imported: &Imported, complaints: &mut Vec<Complaint>) -> Vec<Found> {
+    let assets = &imported.assets;
+    if let Ok(bytes) = assets.bytes(line) {
+        return vec![Found { path: line.to_owned(), bytes }];
+    }
+    let mut found = Vec::new();
+    for name in names(line) {
+        let own = format!("{}.mtl", imported.desc.name);
+        let tried = [name.as_str(), last_name(&name), &own];
+        let mut why: Option<AssetError> = None;
+        for path in tried {
+            match assets.bytes(path) {
+                Ok(bytes) => {
+                    if path != name {
+                        let message = format!("{name} is not there; {path} is read instead");
+                        complaints.push(Complaint::error(at.clone(), message).warning());
+                    }
+                    found.push(Found { path: path.to_owned(), bytes });
+                    why = None;
+                    break;
+                }
+                Err(error) => {
+                    why.get_or_insert(error);
+                }
+            }
+        }
+        if let Some(error) = why {
+            let message = format!("{error}; its materials are drawn in grey");
+            complaints.push(Complaint::error(at.clone(), message).warning());
+        }
+    }
+    found
+}
+
+/// Several names in one line: each ends in `.mtl`, so that they may hold spaces; else they end at spaces.
+fn names(line: &str) -> Vec<String> {
+    let (mut names, mut open) = (Vec::new(), String::new());
+    for word in line.split_whitespace() {
+        if !open.is_empty() {
+            open.push(' ');
+        }
+        open += word.trim_matches('"');
+        if word.trim_matches('"').to_lowercase().ends_with(".mtl") {
+            names.push(std::mem::take(&mut open));
+        }
+    }
+    if names.is_empty() {
+        return line.split_whitespace().map(str::to_owned).collect();
+    }
+    names.extend((!open.is_empty()).then_some(open));
+    names
+}
+
+/// What stands behind the last slash.
+pub(super) fn last_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::names;
+
+    #[test]
+    fn several_names_may_hold_spaces() {
+        assert_eq!(names("a.mtl b c.MTL d/e.mtl"), ["a.mtl", "b c.MTL", "d/e.mtl"]);
+        assert_eq!(names("\"a b.mtl\""), ["a b.mtl"]);
+        assert_eq!(names("stuff other"), ["stuff", "other"]);
+        assert_eq!(names("  "), [""; 0]);
+    }
+}

@@ -1,0 +1,219 @@
+//! PLY, the Stanford triangle format (Turk 1994): text and both byte orders, with vertices, faces and triangle strips.
+//!
+//! Faces turn counter-clockwise seen from outside. Colours in whole numbers are sRGB, in floats linear. Without normals
+//! the mesh is faceted, as in pbrt.
+
+mod body;
+mod header;
+mod row;
+
+use std::path::Path;
+
+use durer_core::{
+    Id,
+    glam::{DAffine3, DVec3},
+    math::{Motion, Point2, Point3},
+};
+use durer_scene::{
+    AssetError, MaterialRef, Mesh, NamedNode, Node, Params, Severity, ShapeDesc, ShapeSource, TextureDesc,
+    TextureValue,
+};
+
+use self::row::Rows;
+use super::{
+    Imported,
+    polygon::Triangulator,
+    text::{Complaint, tell},
+    unify::Unifier,
+};
+use crate::assets::read_file;
+
+/// What a file holds.
+struct Read {
+    mesh: Mesh,
+    /// The image that a comment names.
+    texture: Option<String>,
+    warnings: Vec<Complaint>,
+}
+
+/// Reads the file at `path`.
+pub(super) fn read(path: &Path, imported: &mut Imported) {
+    let file = path.display().to_string();
+    let bytes = match read_file(path, &file, imported.assets.limits()) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            imported.diagnostics.error(durer_scene::Location::None, error.to_string());
+            return;
+        }
+    };
+    let mut complaints = Vec::new();
+    match parse(&bytes) {
+        Ok(read) => {
+            complaints = read.warnings;
+            if read.mesh.indices.is_empty() {
+                complaints.push(no_faces(&read.mesh));
+            } else {
+                place(read.mesh, read.texture, &mut complaints, imported);
+            }
+        }
+        Err(complaint) => complaints.push(complaint),
+    }
+    tell(complaints, &file, &bytes, imported);
+}
+
+fn no_faces(mesh: &Mesh) -> Complaint {
+    let points = match mesh.positions.len() {
+        0 => "nothing".to_owned(),
+        n => format!("{n} points"),
+    };
+    let message = format!("the file holds {points} but no faces: there is nothing to see");
+    Complaint::whole(message).warning().hint("durer draws surfaces; make a mesh of a point cloud first")
+}
+
+/// The triangles in `bytes`, which messages call `name`.
+pub(crate) fn mesh(bytes: &[u8], name: &str) -> Result<Mesh, AssetError> {
+    let fail = |reason| AssetError::Format { path: name.to_owned(), reason };
+    let read = parse(bytes).map_err(|c| fail(c.line(bytes)))?;
+    if read.mesh.indices.is_empty() {
+        return Err(fail(no_faces(&read.mesh).message));
+    }
+    Ok(read.mesh)
+}
+
+fn parse(bytes: &[u8]) -> Result<Read, Complaint> {
+    let header = header::parse(bytes)?;
+    let rows = body::read(&header, bytes)?;
+    let mut warnings = header.warnings;
+    let mesh = assemble(rows, &mut warnings);
+    mesh.validate().map_err(|e| Complaint::whole(e.to_string()))?;
+    Ok(Read { mesh, texture: header.texture, warnings })
+}
+
+fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
+    let mut dropped = |what: &str| {
+        let message = format!("{what} hold infinite or NaN numbers; they are ignored");
+        warnings.push(Complaint::whole(message).warning());
+    };
+    if rows.normals.iter().any(|n| !n.is_finite()) {
+        rows.normals.clear();
+        dropped("the normals");
+    }
+    if rows.uvs.iter().chain(&rows.coords).any(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        rows.uvs.clear();
+        rows.coords.clear();
+        dropped("the texture coordinates");
+    }
+    if rows.colors.iter().flatten().any(|c| !c.is_finite()) {
+        rows.colors.clear();
+        dropped("the colours");
+    }
+    if !rows.coords.is_empty() && rows.uvs.is_empty() {
+        split_vertices(&mut rows);
+    }
+    let indices = triangles(&rows, warnings);
+    let Rows { positions, normals, uvs, colors, .. } = rows;
+    Mesh { positions, indices, normals, uvs, colors, ..Mesh::default() }
+}
+
+/// Gives corners with texture coordinates of their own vertices of their own.
+fn split_vertices(rows: &mut Rows) {
+    let coords = std::mem::take(&mut rows.coords);
+    let mut unifier = Unifier::new(rows.positions.len());
+    let (mut sources, mut uvs) = (Vec::new(), Vec::new());
+    for (i, corner) in rows.corners.iter_mut().enumerate() {
+        let uv: Point2 = coords.get(i).copied().unwrap_or_default();
+        let id = unifier.id(*corner, [uv.x.to_bits(), uv.y.to_bits()], sources.len() as u32);
+        if id as usize == sources.len() {
+            sources.push(*corner as usize);
+            uvs.push(uv);
+        }
+        *corner = id;
+    }
+    rows.positions = gather(&rows.positions, &sources);
+    rows.normals = gather(&rows.normals, &sources);
+    rows.colors = gather(&rows.colors, &sources);
+    rows.uvs = uvs;
+}
+
+fn gather<T: Copy>(list: &[T], which: &[usize]) -> Vec<T> {
+    which.iter().filter_map(|&i| list.get(i).copied()).collect()
+}
+
+fn triangles(rows: &Rows, warnings: &mut Vec<Complaint>) -> Vec<[u32; 3]> {
+    if rows.ends.is_empty() {
+        return rows.corners.as_chunks::<3>().0.to_vec();
+    }
+    let mut indices = Vec::with_capacity(rows.corners.len() / 2);
+    let mut split = Triangulator::new(rows.corners.len());
+    let (mut points, mut local, mut start, mut poor) = (Vec::new(), Vec::new(), 0, 0);
+    for &end in &rows.ends {
+        let polygon = rows.corners.get(start..end).unwrap_or_default();
+        start = end;
+        match *polygon {
+            [a, b, c] => {
+                indices.push([a, b, c]);
+                continue;
+            }
+            [] | [_] | [_, _] => {
+                poor += 1;
+                continue;
+            }
+            _ => {}
+        }
+        points.clear();
+        points.extend(
+            polygon
+                .iter()
+                .map(|&v| rows.positions.get(v as usize).map_or(DVec3::ZERO, |p| Point3::to_f64(*p))),
+        );
+        local.clear();
+        split.split(&points, &mut local);
+        indices.extend(local.iter().map(|t| t.map(|i| polygon.get(i).copied().unwrap_or_default())));
+    }
+    if poor > 0 {
+        warnings
+            .push(Complaint::whole(format!("{poor} faces with fewer than 3 corners are left out")).warning());
+    }
+    if split.hasty > 0 {
+        warnings.push(Complaint::whole(super::polygon::hasty(split.hasty)).warning());
+    }
+    indices
+}
+
+/// The mesh as the one shape of the scene.
+fn place(mesh: Mesh, texture: Option<String>, complaints: &mut Vec<Complaint>, imported: &mut Imported) {
+    let colored = !mesh.colors.is_empty();
+    let texture = texture.filter(|_| !mesh.uvs.is_empty()).filter(|name| {
+        let found = durer_scene::Assets::image(&imported.assets, name);
+        if let Err(error) = &found {
+            complaints.push(Complaint::whole(format!("{error}; drawn without this image")).warning());
+        }
+        found.is_ok()
+    });
+    let desc = &mut imported.desc;
+    let matte = Params::new().float("roughness", 1.0).float("eta", 1.0);
+    let params = match &texture {
+        Some(filename) => {
+            let node =
+                Node::new("imagemap", Params::new().string("filename", filename).string("encoding", "sRGB"));
+            desc.textures.push(TextureDesc { name: filename.clone(), value: TextureValue::Color, node });
+            matte.texture("basecolor", filename)
+        }
+        None => matte.rgb("basecolor", [1.0; 3]),
+    };
+    let mut material: Option<MaterialRef> = None;
+    if colored || texture.is_some() {
+        let name = if colored { "vertex colours" } else { "texture" };
+        desc.materials.push(NamedNode { name: name.to_owned(), node: Node::new("principled", params) });
+        material = Some(Id::new(0));
+    }
+    desc.meshes.push(std::sync::Arc::new(mesh));
+    desc.shapes.push(ShapeDesc {
+        name: desc.name.clone(),
+        source: ShapeSource::Mesh(Id::new(0)),
+        world_from_object: Motion::still(DAffine3::IDENTITY),
+        material,
+        reverse_orientation: false,
+    });
+    debug_assert!(complaints.iter().all(|c| c.severity != Severity::Error));
+}

@@ -1,0 +1,427 @@
+//! Rows of the tables we know, from text or from bytes.
+use durer_core::math::{Normal3, Point2, Point3};
+
+use super::header::{Element, Scalar, Shape};
+use crate::import::{
+    color::linear,
+    text::{Complaint, Part, Words, float, integer},
+};
+
+/// Where numbers come from.
+pub(super) trait Numbers {
+    /// The next number.
+    fn float(&mut self, ty: Scalar) -> Result<f32, Complaint>;
+    /// The next whole number.
+    fn integer(&mut self, ty: Scalar) -> Result<i64, Complaint>;
+    /// Passes over `count` numbers.
+    fn skip(&mut self, ty: Scalar, count: usize) -> Result<(), Complaint>;
+    /// A complaint about the number read last.
+    fn fault(&self, message: String) -> Complaint;
+}
+
+/// Numbers as words.
+pub(super) struct Written<'t> {
+    pub(super) words: Words<'t>,
+    last: Part<'t>,
+}
+
+impl<'t> Written<'t> {
+    pub(super) fn new(text: Part<'t>) -> Self {
+        Self { words: text.words(), last: text }
+    }
+    fn word(&mut self) -> Result<Part<'t>, Complaint> {
+        let Some(word) = self.words.next() else {
+            let end = self.last.range().end;
+            let start = self.last.range().start.max(end.saturating_sub(60));
+            return Err(Complaint::error(start..end, "a number is missing behind this"));
+        };
+        self.last = word;
+        Ok(word)
+    }
+}
+
+impl Numbers for Written<'_> {
+    #[inline]
+    fn float(&mut self, _: Scalar) -> Result<f32, Complaint> {
+        let word = self.word()?;
+        float(word.bytes).ok_or_else(|| {
+            Complaint::error(word.range(), format!("expected a number, found \"{}\"", word.shown()))
+        })
+    }
+    #[inline]
+    fn integer(&mut self, _: Scalar) -> Result<i64, Complaint> {
+        let word = self.word()?;
+        integer(word.bytes).ok_or_else(|| {
+            Complaint::error(word.range(), format!("expected a whole number, found \"{}\"", word.shown()))
+        })
+    }
+    fn skip(&mut self, _: Scalar, count: usize) -> Result<(), Complaint> {
+        (0..count).try_for_each(|_| self.word().map(|_| ()))
+    }
+    fn fault(&self, message: String) -> Complaint {
+        Complaint::error(self.last.range(), message)
+    }
+}
+
+/// Numbers as bytes.
+pub(super) struct Packed<'t> {
+    pub(super) rest: Part<'t>,
+    pub(super) big: bool,
+}
+
+impl Packed<'_> {
+    #[inline]
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], Complaint> {
+        let Some((first, rest)) = self.rest.bytes.split_first_chunk::<N>() else {
+            return Err(self.fault("the file ends in the middle of its data".to_owned()));
+        };
+        self.rest = Part { bytes: rest, at: self.rest.at + N };
+        let mut bytes = *first;
+        if self.big {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+}
+
+impl Numbers for Packed<'_> {
+    #[inline]
+    fn float(&mut self, ty: Scalar) -> Result<f32, Complaint> {
+        match ty {
+            Scalar::F32 => self.take().map(f32::from_le_bytes),
+            Scalar::F64 => self.take().map(|b| f64::from_le_bytes(b) as f32),
+            whole => self.integer(whole).map(|v| v as f32),
+        }
+    }
+    #[inline]
+    fn integer(&mut self, ty: Scalar) -> Result<i64, Complaint> {
+        match ty {
+            Scalar::I8 => self.take().map(|b| i8::from_le_bytes(b).into()),
+            Scalar::U8 => self.take().map(|b| u8::from_le_bytes(b).into()),
+            Scalar::I16 => self.take().map(|b| i16::from_le_bytes(b).into()),
+            Scalar::U16 => self.take().map(|b| u16::from_le_bytes(b).into()),
+            Scalar::I32 => self.take().map(|b| i32::from_le_bytes(b).into()),
+            Scalar::U32 => self.take().map(|b| u32::from_le_bytes(b).into()),
+            Scalar::F32 | Scalar::F64 => self.float(ty).map(|v| v as i64),
+        }
+    }
+    fn skip(&mut self, ty: Scalar, count: usize) -> Result<(), Complaint> {
+        let bytes = count.saturating_mul(ty.size());
+        if bytes > self.rest.bytes.len() {
+            return Err(self.fault(format!("a list of {count} values is longer than the file")));
+        }
+        self.rest = self.rest.split(bytes).1;
+        Ok(())
+    }
+    fn fault(&self, message: String) -> Complaint {
+        Complaint::whole(format!("{message}, at byte {}", self.rest.at))
+    }
+}
+
+/// What a column of vertices means: places in a row of [`ROW`] numbers, by name.
+const NAMES: [(usize, &[&str]); ROW] = [
+    (0, &["x"]),
+    (1, &["y"]),
+    (2, &["z"]),
+    (3, &["nx", "normal_x"]),
+    (4, &["ny", "normal_y"]),
+    (5, &["nz", "normal_z"]),
+    (6, &["u", "s", "texture_u", "texture_s"]),
+    (7, &["v", "t", "texture_v", "texture_t"]),
+    (8, &["red", "diffuse_red", "r"]),
+    (9, &["green", "diffuse_green", "g"]),
+    (10, &["blue", "diffuse_blue", "b"]),
+    (11, &["alpha", "diffuse_alpha", "a"]),
+];
+
+/// Numbers of a vertex that we read.
+const ROW: usize = 12;
+
+/// What a table is read as.
+#[derive(Debug)]
+pub(super) enum Role {
+    Vertices(Vertices),
+    Faces {
+        indices: usize,
+        coords: Option<usize>,
+        strips: bool,
+    },
+    /// Passed over.
+    Other,
+}
+
+/// The columns of the vertices.
+#[derive(Debug)]
+pub(super) struct Vertices {
+    /// For each property its place in the row.
+    slots: Vec<Option<usize>>,
+    normals: bool,
+    uvs: bool,
+    /// What the colours are divided by before they are decoded; 1 for colours that are linear.
+    colors: Option<f32>,
+}
+
+/// What the table `element` is read as.
+pub(super) fn role(element: &Element) -> Result<Role, Complaint> {
+    let strips = element.name == "tristrips";
+    match element.name.as_str() {
+        "vertex" => vertices(element).map(Role::Vertices),
+        "face" | "tristrips" => {
+            let lists = |(i, p): (usize, &super::header::Property)| {
+                matches!(p.shape, Shape::List { .. }).then_some(i)
+            };
+            let indices = element.find(&["vertex_indices", "vertex_index"]).and_then(lists);
+            let coords = element.find(&["texcoord"]).and_then(lists);
+            match indices {
+                Some(indices) => Ok(Role::Faces { indices, coords, strips }),
+                None if element.count == 0 => Ok(Role::Other),
+                None => {
+                    let message = format!("the element {} has no list \"vertex_indices\"", element.name);
+                    Err(Complaint::error(element.at.clone(), message))
+                }
+            }
+        }
+        _ => Ok(Role::Other),
+    }
+}
+
+fn vertices(element: &Element) -> Result<Vertices, Complaint> {
+    let scalar = |names: &[&str]| match element.find(names) {
+        Some((i, p)) => match p.shape {
+            Shape::Scalar(ty) => Some((i, ty)),
+            Shape::List { .. } => None,
+        },
+        None => None,
+    };
+    let found = NAMES.map(|(_, names)| scalar(names));
+    let [x, y, z, nx, ny, nz, u, v, r, g, b, _] = found;
+    if x.and(y).and(z).is_none() {
+        let message = "the vertices have no properties x, y and z";
+        return Err(Complaint::error(element.at.clone(), message));
+    }
+    let mut slots = vec![None; element.properties.len()];
+    for (found, (place, _)) in found.iter().zip(NAMES) {
+        if let Some(slot) = found.and_then(|(i, _)| slots.get_mut(i)) {
+            *slot = Some(place);
+        }
+    }
+    let scale = |ty| match ty {
+        Scalar::U8 => 255.0,
+        Scalar::U16 => 65535.0,
+        _ => 1.0,
+    };
+    Ok(Vertices {
+        slots,
+        normals: nx.and(ny).and(nz).is_some(),
+        uvs: u.and(v).is_some(),
+        colors: r.filter(|_| g.and(b).is_some()).map(|(_, ty)| scale(ty)),
+    })
+}
+
+/// What was read so far, from the beginning or from somewhere within the body.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) positions: Vec<Point3>,
+    pub(super) normals: Vec<Normal3>,
+    pub(super) uvs: Vec<Point2>,
+    pub(super) colors: Vec<[f32; 4]>,
+    pub(super) corners: Vec<u32>,
+    /// Texture coordinates of the corners, if faces bring their own.
+    pub(super) coords: Vec<Point2>,
+    /// Where each polygon ends in `corners`; empty as long as all are triangles.
+    pub(super) ends: Vec<usize>,
+}
+
+impl Rows {
+    /// Appends what comes behind.
+    pub(super) fn append(&mut self, mut later: Self) {
+        if !later.ends.is_empty() || !self.ends.is_empty() {
+            self.uneven();
+            later.uneven();
+            let before = self.corners.len();
+            self.ends.extend(later.ends.iter().map(|end| end + before));
+        }
+        let read = (!self.coords.is_empty(), !later.coords.is_empty());
+        if read.0 || read.1 {
+            self.coords.resize(self.corners.len(), Point2::default());
+            later.coords.resize(later.corners.len(), Point2::default());
+        }
+        self.positions.append(&mut later.positions);
+        self.normals.append(&mut later.normals);
+        self.uvs.append(&mut later.uvs);
+        self.colors.append(&mut later.colors);
+        self.corners.append(&mut later.corners);
+        self.coords.append(&mut later.coords);
+    }
+    /// Makes `ends` say what it left unsaid.
+    fn uneven(&mut self) {
+        if self.ends.is_empty() {
+            self.ends = (1..=self.corners.len() / 3).map(|i| 3 * i).collect();
+        }
+    }
+    /// The polygon whose corners were appended behind `start` is whole.
+    fn close(&mut self, start: usize) {
+        let count = self.corners.len() - start;
+        if count != 3 && self.ends.is_empty() {
+            self.ends = (1..=start / 3).map(|i| 3 * i).collect();
+            self.ends.push(self.corners.len());
+        } else if !self.ends.is_empty() {
+            self.ends.push(self.corners.len());
+        }
+    }
+
+    /// Reads one row of `element`.
+    pub(super) fn row(
+        &mut self,
+        element: &Element,
+        role: &Role,
+        vertices: usize,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), Complaint> {
+        match role {
+            Role::Vertices(columns) => self.vertex(element, columns, numbers),
+            Role::Faces { .. } => self.face(element, role, vertices, numbers),
+            Role::Other => element.properties.iter().try_for_each(|p| skip(p.shape, numbers)),
+        }
+    }
+
+    fn vertex(
+        &mut self,
+        element: &Element,
+        columns: &Vertices,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), Complaint> {
+        let mut row = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f32::NAN];
+        for (property, slot) in element.properties.iter().zip(&columns.slots) {
+            match (property.shape, slot.and_then(|s| row.get_mut(s))) {
+                (Shape::Scalar(ty), Some(value)) => {
+                    *value = numbers.float(ty)?;
+                    if !value.is_finite() {
+                        *value = f32::NAN;
+                        if slot.is_some_and(|s| s < 3) {
+                            return Err(numbers.fault("a vertex is not finite".to_owned()));
+                        }
+                    }
+                }
+                (shape, _) => skip(shape, numbers)?,
+            }
+        }
+        let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = row;
+        self.positions.push(Point3::new(x, y, z));
+        if columns.normals {
+            self.normals.push(Normal3::from([nx, ny, nz]));
+        }
+        if columns.uvs {
+            self.uvs.push(Point2::new(u, v));
+        }
+        if let Some(scale) = columns.colors {
+            let a = if a.is_nan() { 1.0 } else { (a / scale).clamp(0.0, 1.0) };
+            let [r, g, b] = [r, g, b].map(|c| match scale {
+                1.0 => c.max(0.0),
+                _ => linear(c / scale),
+            });
+            self.colors.push([r, g, b, a]);
+        }
+        Ok(())
+    }
+
+    fn face(
+        &mut self,
+        element: &Element,
+        role: &Role,
+        vertices: usize,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), Complaint> {
+        let Role::Faces { indices, coords, strips } = *role else {
+            return Ok(());
+        };
+        let (start, mut own) = (self.corners.len(), Vec::new());
+        for (i, property) in element.properties.iter().enumerate() {
+            match property.shape {
+                Shape::List { count, item } if i == indices => {
+                    let length = list_length(count, numbers)?;
+                    if strips {
+                        self.strips(item, length, vertices, numbers)?;
+                        continue;
+                    }
+                    for _ in 0..length {
+                        let corner = index(item, vertices, numbers)?;
+                        self.corners.push(corner);
+                    }
+                }
+                Shape::List { count, item } if Some(i) == coords => {
+                    let length = list_length(count, numbers)?;
+                    for _ in 0..length / 2 {
+                        own.push(Point2::new(numbers.float(item)?, numbers.float(item)?));
+                    }
+                    numbers.skip(item, length % 2)?;
+                }
+                shape => skip(shape, numbers)?,
+            }
+        }
+        if !strips {
+            self.close(start);
+            let length = self.corners.len();
+            if own.len() == length - start && !own.is_empty() {
+                self.coords.resize(start, Point2::default());
+                self.coords.append(&mut own);
+            }
+        }
+        Ok(())
+    }
+
+    /// Triangle strips, ended by -1.
+    fn strips(
+        &mut self,
+        item: Scalar,
+        length: usize,
+        vertices: usize,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), Complaint> {
+        let (mut last, mut count) = ([0; 2], 0);
+        for _ in 0..length {
+            let value = numbers.integer(item)?;
+            if value == -1 {
+                count = 0;
+                continue;
+            }
+            let corner = checked(value, vertices, numbers)?;
+            let [a, b] = last;
+            if count >= 2 {
+                let triangle = if count % 2 == 0 { [a, b, corner] } else { [b, a, corner] };
+                let start = self.corners.len();
+                self.corners.extend(triangle);
+                self.close(start);
+            }
+            (last, count) = ([b, corner], count + 1);
+        }
+        Ok(())
+    }
+}
+
+fn skip(shape: Shape, numbers: &mut impl Numbers) -> Result<(), Complaint> {
+    match shape {
+        Shape::Scalar(ty) => numbers.skip(ty, 1),
+        Shape::List { count, item } => {
+            let length = list_length(count, numbers)?;
+            numbers.skip(item, length)
+        }
+    }
+}
+
+fn list_length(ty: Scalar, numbers: &mut impl Numbers) -> Result<usize, Complaint> {
+    let length = numbers.integer(ty)?;
+    usize::try_from(length).map_err(|_| numbers.fault(format!("a list of {length} values")))
+}
+
+fn index(ty: Scalar, vertices: usize, numbers: &mut impl Numbers) -> Result<u32, Complaint> {
+    let value = numbers.integer(ty)?;
+    checked(value, vertices, numbers)
+}
+
+fn checked(value: i64, vertices: usize, numbers: &impl Numbers) -> Result<u32, Complaint> {
+    let found = u32::try_from(value).ok().filter(|&v| (v as usize) < vertices);
+    found.ok_or_else(|| {
+        numbers.fault(format!("a face names vertex {value}, but there are {vertices}, counted from 0"))
+    })
+}

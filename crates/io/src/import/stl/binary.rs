@@ -1,0 +1,64 @@
+//! STL as bytes: 80 of a header that may say anything, the number of triangles, 50 for each triangle.
+use rayon::prelude::*;
+
+use super::{Solid, check};
+use crate::import::text::Complaint;
+
+const HEADER: usize = 80;
+/// Normal, three corners, two spare bytes.
+const TRIANGLE: usize = 50;
+/// Triangles that one thread reads at once.
+const BLOCK: usize = 1 << 14;
+
+/// The number of triangles that the file claims.
+fn count(bytes: &[u8]) -> Option<usize> {
+    let number = bytes.get(HEADER..)?.first_chunk()?;
+    Some(u32::from_le_bytes(*number) as usize)
+}
+
+/// True if the file is exactly as long as it claims, which text is not but by chance.
+pub(super) fn fits(bytes: &[u8]) -> bool {
+    count(bytes).is_some_and(|n| n * TRIANGLE + HEADER + 4 == bytes.len())
+}
+
+/// Reads the one body of a file.
+pub(super) fn read(bytes: &[u8], warnings: &mut Vec<Complaint>) -> Result<Vec<Solid>, Complaint> {
+    let wrong = |message: String| {
+        let hint = "an STL file is text that begins with \"solid\", or 84 bytes and 50 for each triangle";
+        Complaint::whole(message).hint(hint)
+    };
+    let count = count(bytes).ok_or_else(|| {
+        wrong(format!("not an STL file: {} bytes are too few for a binary one", bytes.len()))
+    })?;
+    let body = bytes.get(HEADER + 4..).unwrap_or_default();
+    let there = body.len() / TRIANGLE;
+    if count > there {
+        return Err(wrong(format!("the file claims {count} triangles, but ends after {there}")));
+    }
+    if body.len() != count * TRIANGLE {
+        let more = body.len() - count * TRIANGLE;
+        warnings
+            .push(Complaint::whole(format!("{more} bytes behind the last triangle are ignored")).warning());
+    }
+    let body = body.get(..count * TRIANGLE).unwrap_or_default();
+    let blocks: Vec<_> = body.chunks(BLOCK * TRIANGLE).enumerate().collect();
+    let read = blocks.into_par_iter().map(|(i, block)| {
+        let triangles = block.chunks_exact(TRIANGLE).enumerate();
+        let checked = triangles.map(|(k, bytes)| {
+            let corners = corners(bytes);
+            let message = |m| Complaint::whole(format!("triangle {}: {m}", i * BLOCK + k));
+            check(&corners).map(|()| corners).map_err(message)
+        });
+        checked.collect::<Result<Vec<_>, _>>()
+    });
+    let mut triangles = Vec::with_capacity(count);
+    for block in read.collect::<Vec<_>>() {
+        triangles.extend(block?);
+    }
+    Ok(vec![Solid { name: String::new(), triangles }])
+}
+
+fn corners(triangle: &[u8]) -> [[f32; 3]; 3] {
+    let mut numbers = triangle.as_chunks::<4>().0.iter().skip(3).map(|b| f32::from_le_bytes(*b));
+    std::array::from_fn(|_| std::array::from_fn(|_| numbers.next().unwrap_or(0.0)))
+}
