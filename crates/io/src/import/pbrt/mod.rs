@@ -17,6 +17,7 @@ mod params;
 mod parser;
 mod placement;
 mod placing;
+mod retired;
 mod settings;
 mod state;
 mod transform;
