@@ -37,51 +37,58 @@ impl Pair {
     }
 }
 
+/// Shared, because every shape and every block has a copy; `None` for none, which costs nothing.
+type Factors = Option<Arc<[(Pair, Arc<Motion>)]>>;
+
 /// `world_from_current`: the product of all factors, from the left, and of the last pair.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Placement {
     /// What stands before each use of `TransformKeys`, and what that gave.
-    factors: Arc<[(Pair, Arc<Motion>)]>,
+    factors: Factors,
     last: Pair,
 }
 
 impl Placement {
     /// Where the world is.
     pub(super) fn identity() -> Self {
-        Self { factors: Arc::from([]), last: Pair::IDENTITY }
+        Self { factors: None, last: Pair::IDENTITY }
+    }
+
+    fn factors(&self) -> &[(Pair, Arc<Motion>)] {
+        self.factors.as_deref().unwrap_or_default()
     }
 
     /// The way back. Every matrix was checked when it came about.
     pub(super) fn inverse(&self) -> Self {
         let mut before = self.last.inverse();
-        let mut factors = Vec::with_capacity(self.factors.len());
-        for (pair, motion) in self.factors.iter().rev() {
+        let mut factors = Vec::with_capacity(self.factors().len());
+        for (pair, motion) in self.factors().iter().rev() {
             let keys = motion.keys().iter().map(|(t, m)| (*t, m.inverse())).collect();
             let back = Motion::keyed(keys).map_or_else(|_| Arc::clone(motion), Arc::new);
             factors.push((std::mem::replace(&mut before, pair.inverse()), back));
         }
-        Self { factors: factors.into(), last: before }
+        Self { factors: (!factors.is_empty()).then(|| factors.into()), last: before }
     }
 
     /// `self * inner`: something placed within something placed.
     pub(super) fn compose(&self, inner: &Self) -> Self {
-        let Some(((pair, motion), others)) = inner.factors.split_first() else {
-            return Self { factors: Arc::clone(&self.factors), last: self.last.compose(&inner.last) };
+        let Some(((pair, motion), others)) = inner.factors().split_first() else {
+            return Self { factors: self.factors.clone(), last: self.last.compose(&inner.last) };
         };
         let joint = (self.last.compose(pair), Arc::clone(motion));
-        let factors = self.factors.iter().cloned().chain([joint]).chain(others.iter().cloned());
-        Self { factors: factors.collect(), last: inner.last }
+        let factors = self.factors().iter().cloned().chain([joint]).chain(others.iter().cloned());
+        Self { factors: Some(factors.collect()), last: inner.last }
     }
 
     /// `self * motion`.
     pub(super) fn keyed(&self, motion: Motion) -> Self {
         let factor = (self.last, Arc::new(motion));
-        Self { factors: self.factors.iter().cloned().chain([factor]).collect(), last: Pair::IDENTITY }
+        Self { factors: Some(self.factors().iter().cloned().chain([factor]).collect()), last: Pair::IDENTITY }
     }
 
     /// How often `TransformKeys` was used.
     pub(super) fn depth(&self) -> usize {
-        self.factors.len()
+        self.factors().len()
     }
 
     /// `self * m` where `active`.
@@ -116,13 +123,13 @@ impl Placement {
             last.end = change(&last.end);
         }
         let sound = is_invertible(&last.start) && is_invertible(&last.end);
-        if sound { Ok(Self { factors: Arc::clone(&self.factors), last }) } else { Err(SINGULAR) }
+        if sound { Ok(Self { factors: self.factors.clone(), last }) } else { Err(SINGULAR) }
     }
 
     /// The product of all but the last pair at `time`.
     fn before(&self, time: f64, times: (f64, f64)) -> DAffine3 {
         let at = |(pair, motion): &(Pair, Arc<Motion>)| pair.motion(times).at(time) * motion.at(time);
-        self.factors.iter().fold(DAffine3::IDENTITY, |product, factor| product * at(factor))
+        self.factors().iter().fold(DAffine3::IDENTITY, |product, factor| product * at(factor))
     }
 
     /// The matrix at `time`.
@@ -132,11 +139,11 @@ impl Placement {
 
     /// As one motion; `times` are those of the two matrices of each pair.
     pub(super) fn motion(&self, times: (f64, f64)) -> Motion {
-        if self.factors.is_empty() {
+        if self.factors.is_none() {
             return self.last.motion(times);
         }
-        let pairs = self.factors.iter().map(|f| &f.0).chain([&self.last]);
-        let mut moments: Vec<f64> = self.factors.iter().flat_map(|f| f.1.keys()).map(|key| key.0).collect();
+        let pairs = self.factors().iter().map(|f| &f.0).chain([&self.last]);
+        let mut moments: Vec<f64> = self.factors().iter().flat_map(|f| f.1.keys()).map(|key| key.0).collect();
         if pairs.into_iter().any(|pair| !pair.is_still()) {
             moments.extend([times.0, times.1]);
         }
