@@ -25,7 +25,12 @@ fn every_shared_pbrt_scene_is_compiled() {
         }
         let mut imported = durer::open(&file.to_string_lossy());
         let prepared =
-            prepare(&mut imported, &Options { width: Some(16), height: Some(16), ..Options::default() });
+            prepare(&mut imported, &Options {
+            width: Some(16),
+            height: Some(16),
+            engine: Engine::BruteForce,
+            ..Options::default()
+        });
         let errors = imported.diagnostics.iter().filter(|d| d.severity == Severity::Error);
         let errors: Vec<_> = errors.map(|d| d.message.as_str()).collect();
         // Image lights are the only thing a scene may wait for.

@@ -71,7 +71,8 @@ impl Patch {
         let c = d.dot(w0.cross(q0));
         let b = d.dot(w1.cross(q1)) - (a + c);
         let discriminant = b * b - 4.0 * a * c;
-        if !(discriminant >= 0.0) {
+        // NaN for rays that are not finite.
+        if discriminant.is_nan() || discriminant < 0.0 {
             return [None, None];
         }
         // The stable pair of roots; a flat patch (a = 0) has the second only.

@@ -30,7 +30,7 @@ pub(super) fn next(h: u32) -> u32 {
 
 /// The half-edge before it.
 pub(super) fn previous(h: u32) -> u32 {
-    if h % 3 == 0 { h + 2 } else { h - 1 }
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
 /// Half-edges along one edge, by the order of its ends.
