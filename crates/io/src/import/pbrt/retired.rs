@@ -41,7 +41,6 @@ const PARAMS: &[(&str, &str)] = &[
     ("Kt", "\"transmittance\" of diffusetransmission; a dielectric has none"),
     ("mapname", "\"filename\""),
     ("bumpmap", "\"displacement\""),
-    ("nsamples", "none: the Sampler says how many; remove it"),
     ("maxsampleluminance", "\"maxcomponentvalue\""),
     ("shadowalpha", "\"alpha\""),
 ];
