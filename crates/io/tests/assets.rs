@@ -71,3 +71,52 @@ fn images_are_decoded_once_and_embedded_ones_come_first() {
     assert_eq!(assets.image("image:0").expect("embedded"), first);
     assert_eq!(assets.image("image:1").expect_err("missing").to_string(), "image:1: file not found");
 }
+
+fn packed(bytes: &[u8]) -> Vec<u8> {
+    use std::io::Write;
+    let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    packer.write_all(bytes).expect("memory");
+    packer.finish().expect("memory")
+}
+
+#[test]
+fn gzip_is_unpacked_whatever_the_file_is_called() {
+    let (root, mut assets) = scene();
+    let twice = [packed(b"one "), packed(b"two")].concat();
+    fs::write(root.path().join("scene/a.txt"), &twice).expect("file");
+    assert_eq!(&*assets.bytes("a.txt").expect("readable"), b"one two");
+    assets.insert("embedded", twice);
+    assert_eq!(&*assets.bytes("embedded").expect("readable"), b"one two");
+    fs::write(root.path().join("scene/cut.gz"), &packed(&[7; 1000])[..15]).expect("file");
+    let error = assets.bytes("cut.gz").expect_err("damaged").to_string();
+    assert!(error.starts_with("cut.gz: damaged gzip data after "), "{error}");
+}
+
+/// 64 MB of zeros are 64 kB of gzip.
+#[test]
+fn what_unpacks_to_more_than_the_limit_is_refused() {
+    let (root, _) = scene();
+    fs::write(root.path().join("scene/bomb.gz"), packed(&vec![0; 64 << 20])).expect("file");
+    let limits = Limits { file_bytes: 1 << 20, ..Limits::default() };
+    let assets = FileAssets::new(root.path().join("scene"), limits);
+    let error = assets.bytes("bomb.gz").expect_err("too long");
+    assert_eq!(error.to_string(), "bomb.gz: unpacks to more than 1048576 bytes, the limit");
+}
+
+#[test]
+fn scene_files_open_in_any_letter_case_and_packed() {
+    let (root, _) = scene();
+    let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (name, bytes) in [("A.OBJ", obj.to_vec()), ("B.Obj.GZ", packed(obj)), ("c.obj", packed(obj))] {
+        let path = root.path().join("scene").join(name);
+        fs::write(&path, bytes).expect("file");
+        let scene = durer_io::import::open(&path, Limits::default());
+        assert!(scene.diagnostics.is_empty(), "{name}: {:?}", scene.diagnostics);
+        assert_eq!(scene.desc.name.to_lowercase(), name[..1].to_lowercase());
+        assert_eq!(scene.desc.shapes.len(), 1);
+    }
+    let other = durer_io::import::open(&root.path().join("a.fbx"), Limits::default());
+    let said = other.diagnostics.iter().next().expect("an error");
+    assert!(said.message.ends_with("a.fbx: not a scene format durer reads"));
+    assert!(said.hint.as_deref().is_some_and(|h| h.contains(".obj, .ply, .stl")), "{said:?}");
+}

@@ -157,3 +157,82 @@ fn flatten(corners: &[DVec3], flat: &mut Vec<DVec2>) {
 pub(crate) fn hasty(count: usize) -> String {
     format!("{count} concave polygons have so many corners that they were not split faithfully")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn split(corners: &[DVec3]) -> (Vec<[usize; 3]>, usize) {
+        let mut triangulator = Triangulator::new(corners.len());
+        let mut out = Vec::new();
+        triangulator.split(corners, &mut out);
+        (out, triangulator.hasty)
+    }
+
+    fn area_of(corners: &[DVec3], triangles: &[[usize; 3]]) -> f64 {
+        let area = |t: &[usize; 3]| {
+            let [a, b, c] = t.map(|i| corners.get(i).copied().unwrap_or_default());
+            (b - a).cross(c - a).length() / 2.0
+        };
+        triangles.iter().map(area).sum()
+    }
+
+    /// A strip of width 1 that winds up: `turns` turns of a square spiral.
+    fn spiral(turns: usize) -> Vec<DVec3> {
+        let side = |offset: f64| {
+            (0..4 * turns).map(move |i| {
+                let reach = 2.0 * (i / 4) as f64 + 2.0 + offset;
+                let last = if i % 4 == 3 { 2.0 } else { 0.0 };
+                let (x, y) = [(reach, -reach), (reach, reach), (-reach, reach), (-reach, -reach - last)]
+                    .get(i % 4)
+                    .copied()
+                    .unwrap_or_default();
+                DVec3::new(x, y, 1.0)
+            })
+        };
+        side(0.0).chain(side(1.0).collect::<Vec<_>>().into_iter().rev()).collect()
+    }
+
+    #[test]
+    fn a_hole_tied_to_the_outline_stays_open() {
+        // A square of 4 by 4 with a hole of 2 by 2, from whose corner an edge leads to the outline and back.
+        let outline = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)];
+        let corners: Vec<DVec3> =
+            outline.iter().map(|&(x, y)| DVec3::new(f64::from(x), 0.0, f64::from(y))).collect();
+        let (triangles, _) = split(&corners);
+        assert_eq!(triangles.len(), corners.len() - 2);
+        assert_eq!(area_of(&corners, &triangles), 12.0);
+    }
+
+    #[test]
+    fn spirals_keep_their_area_and_huge_ones_end() {
+        let small = spiral(20);
+        let (triangles, hasty) = split(&small);
+        let exact = newell(&small).length() / 2.0;
+        assert!((area_of(&small, &triangles) - exact).abs() < 1e-6 * exact);
+        assert_eq!((triangles.len(), hasty), (small.len() - 2, 0));
+        let huge = spiral(30_000);
+        let (triangles, hasty) = split(&huge);
+        assert_eq!((triangles.len(), hasty), (huge.len() - 2, 1));
+    }
+
+    #[test]
+    fn what_is_tested_grows_with_the_corners_and_not_with_their_square() {
+        let spent = |turns: usize| {
+            let corners = spiral(turns);
+            let mut triangulator = Triangulator::new(corners.len());
+            let all = triangulator.tests;
+            triangulator.split(&corners, &mut Vec::new());
+            all - triangulator.tests
+        };
+        assert!(spent(60_000) <= FREE_TESTS + 256 * 8 * 60_000);
+    }
+
+    #[test]
+    fn corners_in_one_place_or_line_do_no_harm() {
+        for corners in [vec![DVec3::ONE; 7], (0..9).map(|i| DVec3::splat(f64::from(i))).collect()] {
+            assert_eq!(split(&corners).0.len(), corners.len() - 2);
+        }
+        assert!(split(&[DVec3::ONE; 2]).0.is_empty());
+    }
+}

@@ -10,11 +10,7 @@ use durer_core::{
 use durer_scene::{MaterialRef, Mesh, NamedNode, Node, Params, ShapeDesc, ShapeSource};
 use rayon::prelude::*;
 
-use super::{
-    corner::NONE,
-    library::Library,
-    piece::{Event, Model},
-};
+use super::{corner::NONE, library::Library, model::Model, piece::Event};
 use crate::import::{
     Imported, polygon,
     polygon::Triangulator,
@@ -108,7 +104,8 @@ fn groups(text: Part<'_>, model: &Model) -> Vec<(Key, Vec<Run>)> {
         let bytes = text.bytes.get(range.start - text.at..range.end - text.at).unwrap_or_default();
         Part { bytes, at: range.start }.text()
     };
-    let (mut groups, mut known): (Vec<(Key, Vec<Run>)>, HashMap<Key, usize>) = (Vec::new(), HashMap::new());
+    let mut groups: Vec<(Key, Vec<Run>)> = Vec::new();
+    let mut known: HashMap<Key, usize> = HashMap::new();
     let mut key = Key::default();
     for (piece, content) in model.pieces.iter().enumerate() {
         let mut close = |key: &Key, faces: Range<usize>| {

@@ -14,8 +14,9 @@ use durer_scene::{AssetError, Assets, MaterialRef, NamedNode};
 
 use super::{
     material,
+    model::Model,
     mtl::{self, Material},
-    piece::{Event, Model},
+    piece::Event,
     texture::Textures,
 };
 use crate::import::{

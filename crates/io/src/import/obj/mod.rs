@@ -11,6 +11,7 @@ mod assemble;
 mod corner;
 mod library;
 mod material;
+mod model;
 mod mtl;
 mod piece;
 mod smooth;
@@ -21,7 +22,10 @@ use std::path::Path;
 use durer_scene::Location;
 use rayon::prelude::*;
 
-use self::piece::{Counts, Model, Piece};
+use self::{
+    model::Model,
+    piece::{Counts, Piece},
+};
 use super::{
     Imported,
     text::{Complaint, Part, is_continued, tell},

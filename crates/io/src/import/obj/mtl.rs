@@ -288,8 +288,10 @@ impl Material {
     pub(super) fn map(&self, slot: Slot) -> Option<&Map> {
         self.maps.iter().rev().find(|(s, _)| *s == slot).map(|(_, map)| map)
     }
-    /// Share of the surface that is there, by `d`, else by `Tr`.
+    /// Share of the surface that is there, by `d`, else by `Tr`. A `Tr` of 1 alone would leave nothing to see: programs
+    /// that write it, such as MeshLab, mean the opposite.
     pub(super) fn opacity(&self) -> f32 {
-        self.d.or(self.tr.map(|t| 1.0 - t)).unwrap_or(1.0).clamp(0.0, 1.0)
+        let by_tr = self.tr.filter(|t| *t != 1.0).map(|t| 1.0 - t);
+        self.d.or(by_tr).unwrap_or(1.0).clamp(0.0, 1.0)
     }
 }

@@ -1,14 +1,15 @@
-//! Statements: a piece of the text to arrays, and the arrays of all pieces to those of the file.
+//! Statements: a piece of the text to arrays.
 use std::ops::Range;
 
-use durer_core::math::{Normal3, Point2, Point3};
-use durer_scene::nearest_word;
-
-use super::corner::{self, Wrong};
+use super::{
+    corner::{self, Wrong},
+    model::Tallies,
+};
 use crate::import::{
     color::linear,
-    text::{Complaint, Part, Tally, Words, float},
+    text::{Complaint, Part, Words, float},
 };
+use durer_core::math::{Normal3, Point2, Point3};
 
 /// Numbers of positions, texture coordinates and normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,49 +36,25 @@ pub(super) enum Event {
     Library(Range<usize>),
 }
 
-/// What is worth one warning, however often it happens.
-#[derive(Debug, Default)]
-pub(super) struct Tallies {
-    pub(super) lines: Tally,
-    pub(super) free_form: Tally,
-    pub(super) poor: Tally,
-    pub(super) lost: Tally,
-    pub(super) uneven: Tally,
-    pub(super) bad_normals: Tally,
-    pub(super) bad_uvs: Tally,
-}
-
 /// What a piece of the text holds.
 #[derive(Debug, Default)]
 pub(super) struct Piece {
-    positions: Vec<Point3>,
+    pub(super) positions: Vec<Point3>,
     /// Empty, or one for each position.
-    colors: Vec<[f32; 4]>,
-    uvs: Vec<Point2>,
-    normals: Vec<Normal3>,
+    pub(super) colors: Vec<[f32; 4]>,
+    pub(super) uvs: Vec<Point2>,
+    pub(super) normals: Vec<Normal3>,
     pub(super) corners: Vec<[u32; 3]>,
     /// Where each face ends in `corners`.
     pub(super) ends: Vec<usize>,
     /// What goes on before a face, in order.
     pub(super) events: Vec<(usize, Event)>,
-    complaints: Vec<Complaint>,
-    tallies: Tallies,
-    unknown: Vec<(String, Range<usize>)>,
-}
-
-/// What the file holds.
-#[derive(Debug, Default)]
-pub(super) struct Model {
-    pub(super) positions: Vec<Point3>,
-    pub(super) colors: Vec<[f32; 4]>,
-    pub(super) uvs: Vec<Point2>,
-    pub(super) normals: Vec<Normal3>,
-    /// Faces and events only.
-    pub(super) pieces: Vec<Piece>,
     pub(super) complaints: Vec<Complaint>,
+    pub(super) tallies: Tallies,
+    pub(super) unknown: Vec<(String, Range<usize>)>,
 }
 
-const WHITE: [f32; 4] = [1.0; 4];
+pub(super) const WHITE: [f32; 4] = [1.0; 4];
 
 /// Curves, surfaces, and what only modelling programs care about.
 const FREE_FORM: [&str; 31] = [
@@ -115,10 +92,11 @@ const FREE_FORM: [&str; 31] = [
 ];
 
 /// Words we read.
-const WORDS: [&str; 12] = ["v", "vt", "vn", "f", "o", "g", "s", "usemtl", "mtllib", "l", "p", "fo"];
+pub(super) const WORDS: [&str; 12] =
+    ["v", "vt", "vn", "f", "o", "g", "s", "usemtl", "mtllib", "l", "p", "fo"];
 
 /// Unknown words that are told.
-const MOST_UNKNOWN: usize = 8;
+pub(super) const MOST_UNKNOWN: usize = 8;
 
 /// How many vertices a piece holds.
 pub(super) fn count(text: Part<'_>) -> Counts {
@@ -151,8 +129,12 @@ pub(super) fn read(text: Part<'_>, start: Counts, total: Counts) -> Piece {
 impl Piece {
     fn statement(&mut self, line: Part<'_>, word: Part<'_>, words: Words<'_>, counts: [Counts; 2]) {
         let rest = words.rest().trim().range();
+        let words = match word.bytes {
+            b"v" | b"vt" | b"vn" | b"f" => without_comment(words),
+            _ => words,
+        };
         match word.bytes {
-            b"v" | b"vt" | b"vn" if words.rest().bytes.is_empty() => {
+            b"v" | b"vt" | b"vn" if words.clone().next().is_none() => {
                 self.complaints.push(Complaint::error(line.range(), "expected numbers"));
             }
             b"v" => self.position(line, words),
@@ -257,9 +239,6 @@ impl Piece {
         let so_far = start.plus(&here).0;
         let mut lost = 0;
         for word in words {
-            if word.bytes.starts_with(b"#") {
-                break;
-            }
             match corner::resolve(word, so_far, total.0, &mut lost) {
                 Ok(corner) => self.corners.push(corner),
                 Err(wrong) => {
@@ -319,84 +298,15 @@ fn complaint(word: Part<'_>, wrong: Wrong, total: [usize; 3]) -> Complaint {
     }
 }
 
+/// Names may hold a `#`, numbers do not.
+fn without_comment(words: Words<'_>) -> Words<'_> {
+    let rest = words.rest();
+    match memchr::memchr(b'#', rest.bytes) {
+        Some(comment) => rest.split(comment).0.words(),
+        None => words,
+    }
+}
+
 fn finite(x: f32) -> f32 {
     if x.is_finite() { x } else { 0.0 }
-}
-
-impl Model {
-    /// Puts pieces together.
-    pub(super) fn gather(mut pieces: Vec<Piece>) -> Self {
-        let mut model = Self::default();
-        let mut tallies = Tallies::default();
-        let mut unknown: Vec<(String, Range<usize>)> = Vec::new();
-        for piece in &mut pieces {
-            if !piece.colors.is_empty() || !model.colors.is_empty() {
-                model.colors.resize(model.positions.len(), WHITE);
-                piece.colors.resize(piece.positions.len(), WHITE);
-                model.colors.append(&mut piece.colors);
-            }
-            model.positions.append(&mut piece.positions);
-            model.uvs.append(&mut piece.uvs);
-            model.normals.append(&mut piece.normals);
-            model.complaints.append(&mut piece.complaints);
-            tallies.append(std::mem::take(&mut piece.tallies));
-            for (word, at) in piece.unknown.drain(..) {
-                if unknown.iter().all(|(known, _)| *known != word) {
-                    unknown.push((word, at));
-                }
-            }
-        }
-        model.pieces = pieces;
-        tallies.warn(&mut model.complaints);
-        let more = unknown.len().saturating_sub(MOST_UNKNOWN);
-        for (word, at) in unknown.into_iter().take(MOST_UNKNOWN) {
-            let shown = Part { bytes: word.as_bytes(), at: 0 }.shown();
-            let warning =
-                Complaint::error(at, format!("unknown word \"{shown}\"; lines with it are skipped"))
-                    .warning();
-            let near = nearest_word(&word, WORDS);
-            model.complaints.push(match near {
-                Some(near) => warning.hint(format!("did you mean \"{near}\"?")),
-                None => warning,
-            });
-        }
-        if more > 0 {
-            model
-                .complaints
-                .push(Complaint::whole("more unknown words follow: is this a Wavefront OBJ?").warning());
-        }
-        model
-    }
-}
-
-impl Tallies {
-    fn append(&mut self, later: Self) {
-        self.lines.append(later.lines);
-        self.free_form.append(later.free_form);
-        self.poor.append(later.poor);
-        self.lost.append(later.lost);
-        self.uneven.append(later.uneven);
-        self.bad_normals.append(later.bad_normals);
-        self.bad_uvs.append(later.bad_uvs);
-    }
-    fn warn(self, to: &mut Vec<Complaint>) {
-        to.extend(
-            self.lines.warn(|n| format!("{n} lines and points (l, p) are left out: only faces are drawn")),
-        );
-        to.extend(
-            self.free_form
-                .warn(|n| format!("{n} lines are skipped: curves and free-form surfaces are not read")),
-        );
-        to.extend(self.poor.warn(|n| format!("{n} faces with fewer than 3 corners are left out")));
-        to.extend(self.lost.warn(|n| {
-            format!("{n} faces name texture coordinates or normals that are not there; drawn without them")
-        }));
-        to.extend(self.uneven.warn(|n| {
-            format!("{n} faces have texture coordinates or normals at some corners only; drawn without them")
-        }));
-        to.extend(
-            self.bad_normals.warn(|n| format!("{n} normals are not finite; taken as if they were missing")),
-        );
-        to.extend(self.bad_uvs.warn(|n| format!("{n} texture coordinates are not finite; 0 is used")));
-    }
 }

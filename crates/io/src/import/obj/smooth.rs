@@ -6,10 +6,7 @@ use durer_core::{
     math::{Normal3, Point3, float},
 };
 
-use super::{
-    corner::NONE,
-    piece::{Event, Model},
-};
+use super::{corner::NONE, model::Model, piece::Event};
 use crate::import::{polygon::newell, unify::Unifier};
 
 /// Gives corners of smooth faces without normal one.

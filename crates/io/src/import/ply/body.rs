@@ -2,12 +2,13 @@
 //!
 //! In text, one line is one row in all files that programs write; such a body is cut at line ends and read by several
 //! threads. The format as most readers know it cares for words only: a body with more or fewer lines than rows is read
-//! word by word.
+//! word by word. Numbers behind the last column of a line are left out, as some programs write more than they announce.
 use rayon::prelude::*;
 
 use super::{
     header::{Element, Encoding, Header},
-    row::{Packed, Role, Rows, Written, role},
+    numbers::{Packed, Written},
+    row::{Role, Rows, role},
 };
 use crate::import::text::{Complaint, Part};
 
@@ -63,6 +64,7 @@ impl Plan<'_> {
         let read = pieces.par_iter().zip(starts).map(|(piece, start)| self.lines(*piece, start));
         match together(read.collect()) {
             Err(_) if found > expected => self.words(body),
+            Ok(rows) if found > expected && rows.long.count > 0 => self.words(body),
             read => read,
         }
     }
@@ -74,8 +76,8 @@ impl Plan<'_> {
         let mut current = tables.next();
         // Rows until the current table ends, counted from `first`.
         let mut end = current.map_or(0, |t| t.0.count);
-        let mut number = first;
-        for line in piece.lines().filter(|l| !l.bytes.trim_ascii().is_empty()) {
+        let full = piece.lines().filter(|l| !l.bytes.trim_ascii().is_empty());
+        for (number, line) in (first..).zip(full) {
             while number >= end {
                 current = tables.next();
                 let Some((element, _)) = current else {
@@ -88,11 +90,9 @@ impl Plan<'_> {
             };
             let mut numbers = Written::new(line);
             rows.row(element, role, self.vertices, &mut numbers)?;
-            if let Some(word) = numbers.words.next() {
-                let message = format!("this row of the element {} has too many numbers", element.name);
-                return Err(Complaint::error(word.range(), message));
+            if let Some(word) = numbers.left() {
+                rows.long.add(word.range());
             }
-            number += 1;
         }
         Ok(rows)
     }
@@ -103,7 +103,7 @@ impl Plan<'_> {
         let mut numbers = Written::new(body);
         for (element, role) in &self.tables {
             for done in 0..element.count {
-                if numbers.words.clone().next().is_none() {
+                if numbers.left().is_none() {
                     return Err(short(element, done));
                 }
                 rows.row(element, role, self.vertices, &mut numbers)?;

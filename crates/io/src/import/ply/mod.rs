@@ -5,6 +5,7 @@
 
 mod body;
 mod header;
+mod numbers;
 mod row;
 
 use std::path::Path;
@@ -62,11 +63,10 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
 }
 
 fn no_faces(mesh: &Mesh) -> Complaint {
-    let points = match mesh.positions.len() {
-        0 => "nothing".to_owned(),
-        n => format!("{n} points"),
+    let message = match mesh.positions.len() {
+        0 => "the file holds no vertices and no faces: there is nothing to see".to_owned(),
+        n => format!("the file holds {n} points but no faces: there is nothing to see"),
     };
-    let message = format!("the file holds {points} but no faces: there is nothing to see");
     Complaint::whole(message).warning().hint("durer draws surfaces; make a mesh of a point cloud first")
 }
 
@@ -110,6 +110,10 @@ fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
     if !rows.coords.is_empty() && rows.uvs.is_empty() {
         split_vertices(&mut rows);
     }
+    let long = std::mem::take(&mut rows.long);
+    warnings.extend(
+        long.warn(|n| format!("{n} lines hold more numbers than the header says; the last are ignored")),
+    );
     let indices = triangles(&rows, warnings);
     let Rows { positions, normals, uvs, colors, .. } = rows;
     Mesh { positions, indices, normals, uvs, colors, ..Mesh::default() }

@@ -1,122 +1,14 @@
-//! Rows of the tables we know, from text or from bytes.
+//! Rows of the tables we know.
 use durer_core::math::{Normal3, Point2, Point3};
 
-use super::header::{Element, Scalar, Shape};
+use super::{
+    header::{Element, Scalar, Shape},
+    numbers::Numbers,
+};
 use crate::import::{
     color::linear,
-    text::{Complaint, Part, Words, float, integer},
+    text::{Complaint, Tally},
 };
-
-/// Where numbers come from.
-pub(super) trait Numbers {
-    /// The next number.
-    fn float(&mut self, ty: Scalar) -> Result<f32, Complaint>;
-    /// The next whole number.
-    fn integer(&mut self, ty: Scalar) -> Result<i64, Complaint>;
-    /// Passes over `count` numbers.
-    fn skip(&mut self, ty: Scalar, count: usize) -> Result<(), Complaint>;
-    /// A complaint about the number read last.
-    fn fault(&self, message: String) -> Complaint;
-}
-
-/// Numbers as words.
-pub(super) struct Written<'t> {
-    pub(super) words: Words<'t>,
-    last: Part<'t>,
-}
-
-impl<'t> Written<'t> {
-    pub(super) fn new(text: Part<'t>) -> Self {
-        Self { words: text.words(), last: text }
-    }
-    fn word(&mut self) -> Result<Part<'t>, Complaint> {
-        let Some(word) = self.words.next() else {
-            let end = self.last.range().end;
-            let start = self.last.range().start.max(end.saturating_sub(60));
-            return Err(Complaint::error(start..end, "a number is missing behind this"));
-        };
-        self.last = word;
-        Ok(word)
-    }
-}
-
-impl Numbers for Written<'_> {
-    #[inline]
-    fn float(&mut self, _: Scalar) -> Result<f32, Complaint> {
-        let word = self.word()?;
-        float(word.bytes).ok_or_else(|| {
-            Complaint::error(word.range(), format!("expected a number, found \"{}\"", word.shown()))
-        })
-    }
-    #[inline]
-    fn integer(&mut self, _: Scalar) -> Result<i64, Complaint> {
-        let word = self.word()?;
-        integer(word.bytes).ok_or_else(|| {
-            Complaint::error(word.range(), format!("expected a whole number, found \"{}\"", word.shown()))
-        })
-    }
-    fn skip(&mut self, _: Scalar, count: usize) -> Result<(), Complaint> {
-        (0..count).try_for_each(|_| self.word().map(|_| ()))
-    }
-    fn fault(&self, message: String) -> Complaint {
-        Complaint::error(self.last.range(), message)
-    }
-}
-
-/// Numbers as bytes.
-pub(super) struct Packed<'t> {
-    pub(super) rest: Part<'t>,
-    pub(super) big: bool,
-}
-
-impl Packed<'_> {
-    #[inline]
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], Complaint> {
-        let Some((first, rest)) = self.rest.bytes.split_first_chunk::<N>() else {
-            return Err(self.fault("the file ends in the middle of its data".to_owned()));
-        };
-        self.rest = Part { bytes: rest, at: self.rest.at + N };
-        let mut bytes = *first;
-        if self.big {
-            bytes.reverse();
-        }
-        Ok(bytes)
-    }
-}
-
-impl Numbers for Packed<'_> {
-    #[inline]
-    fn float(&mut self, ty: Scalar) -> Result<f32, Complaint> {
-        match ty {
-            Scalar::F32 => self.take().map(f32::from_le_bytes),
-            Scalar::F64 => self.take().map(|b| f64::from_le_bytes(b) as f32),
-            whole => self.integer(whole).map(|v| v as f32),
-        }
-    }
-    #[inline]
-    fn integer(&mut self, ty: Scalar) -> Result<i64, Complaint> {
-        match ty {
-            Scalar::I8 => self.take().map(|b| i8::from_le_bytes(b).into()),
-            Scalar::U8 => self.take().map(|b| u8::from_le_bytes(b).into()),
-            Scalar::I16 => self.take().map(|b| i16::from_le_bytes(b).into()),
-            Scalar::U16 => self.take().map(|b| u16::from_le_bytes(b).into()),
-            Scalar::I32 => self.take().map(|b| i32::from_le_bytes(b).into()),
-            Scalar::U32 => self.take().map(|b| u32::from_le_bytes(b).into()),
-            Scalar::F32 | Scalar::F64 => self.float(ty).map(|v| v as i64),
-        }
-    }
-    fn skip(&mut self, ty: Scalar, count: usize) -> Result<(), Complaint> {
-        let bytes = count.saturating_mul(ty.size());
-        if bytes > self.rest.bytes.len() {
-            return Err(self.fault(format!("a list of {count} values is longer than the file")));
-        }
-        self.rest = self.rest.split(bytes).1;
-        Ok(())
-    }
-    fn fault(&self, message: String) -> Complaint {
-        Complaint::whole(format!("{message}, at byte {}", self.rest.at))
-    }
-}
 
 /// What a column of vertices means: places in a row of [`ROW`] numbers, by name.
 const NAMES: [(usize, &[&str]); ROW] = [
@@ -230,6 +122,8 @@ pub(super) struct Rows {
     pub(super) coords: Vec<Point2>,
     /// Where each polygon ends in `corners`; empty as long as all are triangles.
     pub(super) ends: Vec<usize>,
+    /// Lines with more numbers than their table has.
+    pub(super) long: Tally,
 }
 
 impl Rows {
@@ -246,6 +140,7 @@ impl Rows {
             self.coords.resize(self.corners.len(), Point2::default());
             later.coords.resize(later.corners.len(), Point2::default());
         }
+        self.long.append(later.long);
         self.positions.append(&mut later.positions);
         self.normals.append(&mut later.normals);
         self.uvs.append(&mut later.uvs);

@@ -7,4 +7,4 @@ mod number;
 
 pub(crate) use complaint::{Complaint, Tally, tell};
 pub(crate) use lines::{Part, Words, is_continued};
-pub(crate) use number::{float, integer};
+pub(crate) use number::{float, integer, leading_float, leading_integer};

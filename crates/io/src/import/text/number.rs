@@ -12,16 +12,36 @@ const POWERS: [f64; 23] = [
 
 /// The number that is all of `word`; infinite or NaN if the word says so or is too large; `None` if it is no number.
 pub(crate) fn float(word: &[u8]) -> Option<f32> {
-    short(word).or_else(|| std::str::from_utf8(word).ok()?.parse().ok())
+    match short(word) {
+        Some((value, [])) => Some(value),
+        _ => std::str::from_utf8(word).ok()?.parse().ok(),
+    }
+}
+
+/// The number that `text` begins with and the bytes it takes, if it is short and white space or nothing follows.
+#[inline]
+pub(crate) fn leading_float(text: &[u8]) -> Option<(f32, usize)> {
+    let (value, rest) = short(text)?;
+    ends(rest).then_some((value, text.len() - rest.len()))
+}
+
+/// The same for whole numbers.
+#[inline]
+pub(crate) fn leading_integer(text: &[u8]) -> Option<(i64, usize)> {
+    let (negative, digits) = sign(text);
+    let (value, count, rest) = digits_of(digits, 0);
+    let value = value as i64;
+    let value = if negative { -value } else { value };
+    (ends(rest) && (1..=18).contains(&count)).then_some((value, text.len() - rest.len()))
+}
+
+fn ends(rest: &[u8]) -> bool {
+    matches!(rest, [] | [b' ' | b'\n' | b'\r' | b'\t', ..])
 }
 
 /// The whole number that is all of `word`; `None` if it is none, or has more than 18 digits.
 pub(crate) fn integer(word: &[u8]) -> Option<i64> {
-    let (negative, digits) = sign(word);
-    let (value, count, rest) = digits_of(digits, 0);
-    (count > 0 && count <= 18 && rest.is_empty()).then_some(())?;
-    let value = value as i64;
-    Some(if negative { -value } else { value })
+    leading_integer(word).filter(|(_, len)| *len == word.len()).map(|(value, _)| value)
 }
 
 fn sign(word: &[u8]) -> (bool, &[u8]) {
@@ -43,7 +63,9 @@ fn digits_of(mut text: &[u8], mut value: u64) -> (u64, i32, &[u8]) {
     (value, count, text)
 }
 
-fn short(word: &[u8]) -> Option<f32> {
+/// The number and what follows it.
+#[inline]
+fn short(word: &[u8]) -> Option<(f32, &[u8])> {
     let (negative, rest) = sign(word);
     let (mut mantissa, mut digits, mut rest) = digits_of(rest, 0);
     let mut exponent = 0;
@@ -60,7 +82,7 @@ fn short(word: &[u8]) -> Option<f32> {
         exponent += if down { -(power as i32) } else { power as i32 };
         rest = behind;
     }
-    if !rest.is_empty() || !(1..=19).contains(&digits) || mantissa > 1 << 53 {
+    if !(1..=19).contains(&digits) || mantissa > 1 << 53 {
         return None;
     }
     let power = *POWERS.get(exponent.unsigned_abs() as usize)?;
@@ -69,7 +91,7 @@ fn short(word: &[u8]) -> Option<f32> {
     // Below, f32 has fewer digits.
     let normal = value == 0.0 || (1.2e-38..3.4e38).contains(&value);
     let value = value as f32;
-    (normal && !halfway).then_some(if negative { -value } else { value })
+    (normal && !halfway).then_some((if negative { -value } else { value }, rest))
 }
 
 #[cfg(test)]
