@@ -71,7 +71,6 @@ fn older_versions_are_told_apart() {
                 .iter()
                 .any(|e| e.contains("unknown sampler \"lowdiscrepancy\"") && e.contains("\"paddedsobol\""))
         );
-        assert!(errors.iter().any(|e| e.contains("unknown material \"matte\"") && e.contains("\"diffuse\"")));
         assert!(errors.iter().any(|e| e.contains("unknown parameter type \"color\"")));
     }
     if let Some(errors) = errors_of("pbrt-v3-syntax_uber.pbrt") {

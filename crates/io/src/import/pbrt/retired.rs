@@ -1,11 +1,11 @@
-//! Words of pbrt-v2 and v3 that pbrt-v4 no longer has, each with what it writes instead.
+//! Words of pbrt-v2 and v3 that pbrt-v4 no longer has, each with what it writes instead. (Some kinds of material still answer
+//! to their old word: their schemas say which.)
 use durer_scene::Diagnostics;
 
 use super::{input::Word, params::ParamList};
 
 /// What kind it is a kind of, the word, and what to do.
 const KINDS: &[(&str, &str, &str)] = &[
-    ("material", "matte", "\"diffuse\", with \"reflectance\" for Kd"),
     ("material", "plastic", "\"coateddiffuse\", with \"reflectance\" for Kd"),
     ("material", "substrate", "\"coateddiffuse\", with \"reflectance\" for Kd"),
     ("material", "uber", "\"coateddiffuse\" for what is opaque, \"dielectric\" for what is clear"),
@@ -15,7 +15,6 @@ const KINDS: &[(&str, &str, &str)] = &[
     ("material", "fourier", "\"measured\""),
     ("material", "kdsubsurface", "\"subsurface\""),
     ("material", "disney", "nothing of the kind; durer's \"principled\" is near it"),
-    ("material", "none", "\"interface\""),
     ("sampler", "lowdiscrepancy", "\"paddedsobol\""),
     ("sampler", "02sequence", "\"paddedsobol\""),
     ("sampler", "maxmindist", "\"pmj02bn\""),
