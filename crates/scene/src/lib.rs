@@ -20,7 +20,7 @@ pub use desc::{
     TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity};
-pub use mesh::{Mesh, MeshError};
+pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
 pub use schema::{

@@ -1,10 +1,12 @@
 //! What parameters a kind takes: the one source of defaults, checks, help and documentation.
 
 mod args;
+mod color;
 mod names;
 mod param;
 
-pub use args::{Args, ColorInput, FloatInput, Missing};
+pub use args::{Args, FloatInput, Missing};
+pub use color::ColorInput;
 pub use names::TextureNames;
 pub use param::{ParamDefault, ParamSpec, ParamType};
 

@@ -4,6 +4,7 @@
 //! otherwise; in local frames z is the normal.
 #![forbid(unsafe_code)]
 
+pub mod bilinear;
 pub mod interface;
 pub mod microfacet;
 pub mod quadrature;

@@ -46,6 +46,9 @@ impl Motion {
             return self.keys[0].1;
         }
         let (t0, a) = &self.keys[after - 1];
+        if *t0 == time {
+            return *a;
+        }
         let Some((t1, b)) = self.keys.get(after) else { return *a };
         let u = (time - t0) / (t1 - t0);
         let (from, to) = (Parts::of(a), Parts::of(b));

@@ -4,7 +4,12 @@
 mod basis;
 mod color;
 mod lanes;
+mod named;
+mod observer;
+mod sampled;
 
 pub use basis::Basis;
 pub use color::Color;
 pub use lanes::Spectrum;
+pub use named::{Named, named, spectrum_names};
+pub use sampled::{HELIUM_D, Sampled, blackbody};

@@ -100,16 +100,22 @@ fn an_include_bomb_ends() {
 
 #[test]
 fn bytes_that_are_no_text_are_located() {
-    let (_folder, imported) = open_files(&[("a.pbrt", b"WorldBegin\n# caf\xe9\nShpae \"s\"")]);
+    let text = b"WorldBegin\n# caf\xe9 \"\nShape \"b\\\"\xfcste # \xe9\"\nShpae \"s\" # \xe9\n";
+    let (_folder, imported) = open_files(&[("a.pbrt", text)]);
     assert_eq!(
         complaints(&imported),
         [
-            "2:6 error: this is not valid UTF-8 | \u{fffd} | save the file as UTF-8",
-            "3:1 error: unknown directive \"Shpae\" | Shpae | did you mean \"Shape\"?"
+            "3:11 error: this is not valid UTF-8 | \u{fffd} | save the file as UTF-8",
+            "4:1 error: unknown directive \"Shpae\" | Shpae | did you mean \"Shape\"?"
         ]
     );
+    let (_folder, imported) =
+        open_files(&[("a.pbrt", b"WorldBegin # M\xfcller \xff\xfe\r\nShape \"s\"#\xe9")]);
+    assert_eq!(complaints(&imported), Vec::<String>::new());
+    assert_eq!(imported.desc.shapes.len(), 1);
     for (bytes, word) in [
         (b"\x1f\x8b\x08\x00\x01".as_slice(), "gzip"),
+        (b"\x1f\x8b\x07\x00\x01", "gzip"),
         (b"\xff\xfeW\0o\0", "UTF-16"),
         (b"PK\0\xff\xff", "binary"),
     ] {
@@ -129,4 +135,30 @@ fn large_files_are_refused() {
     let limits = durer_scene::Limits { file_bytes: 20, ..Default::default() };
     let found = complaints(&durer_io::import::open(&path, limits));
     assert!(found.len() == 1 && found[0].contains("larger than 20 bytes"), "{found:?}");
+}
+
+#[test]
+fn packed_files_are_unpacked() {
+    // "WorldBegin\nShape \"s\"\n", by gzip -n.
+    const PACKED: &[u8] = b"\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\x0b\xcf\x2f\xca\x49\x71\x4a\x4d\xcf\xcc\xe3\x0a\xce\x48\x2c\x48\x55\x50\x2a\x56\xe2\x02\x00\x04\x01\xa7\x6f\x15\x00\x00\x00";
+    let (_folder, imported) = open_files(&[("a.pbrt.gz", PACKED)]);
+    assert_eq!(complaints(&imported), Vec::<String>::new());
+    assert_eq!((imported.desc.shapes.len(), imported.desc.name.as_str()), (1, "a"));
+    let (_folder, imported) =
+        open_files(&[("a.pbrt", b"WorldBegin Include \"b.pbrt.gz\""), ("b.pbrt.gz", PACKED)]);
+    assert_eq!(complaints(&imported), ["1:1 error: a second WorldBegin | WorldBegin"]);
+}
+
+#[test]
+fn texts_may_be_empty_and_end_anywhere() {
+    for text in ["", "\n", "\u{feff}", "# only a comment", "\t \r"] {
+        let found = complaints(&read(text));
+        assert!(found.len() == 1 && found[0].contains("the scene has no WorldBegin"), "{found:?}");
+    }
+    let (_folder, imported) = open_files(&[
+        ("a.pbrt", b"WorldBegin\rInclude \"empty.pbrt\" Shape \"s\" \"float a\" 1"),
+        ("empty.pbrt", b""),
+    ]);
+    assert_eq!(complaints(&imported), Vec::<String>::new());
+    assert_eq!(imported.desc.shapes.len(), 1);
 }

@@ -3,6 +3,7 @@
 mod corpus;
 mod errors;
 mod include;
+mod motion;
 mod random;
 mod read;
 mod scene;

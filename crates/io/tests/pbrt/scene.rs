@@ -6,7 +6,7 @@ use durer_scene::{Data, Location, ShapeDesc, ShapeSource, TextureValue, ValueTyp
 
 use super::read::{complaints, read, sound};
 
-fn is(m: DAffine3, columns: [[f64; 3]; 4]) {
+pub(crate) fn is(m: DAffine3, columns: [[f64; 3]; 4]) {
     let [x, y, z, t] = columns.map(DVec3::from);
     let expected = DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: t };
     assert!(m.abs_diff_eq(expected, 1e-12), "{m:?} is not {expected:?}");
@@ -213,21 +213,6 @@ fn copies_are_limited() {
     let found = complaints(&read(&inherited));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].contains("more than 1 GiB"), "{found:?}");
-}
-
-#[test]
-fn moving_things_get_two_keys() {
-    let desc = sound(
-        "TransformTimes 1 3 WorldBegin AttributeBegin ActiveTransform EndTime Translate 2 0 0 ActiveTransform All\n\
-         Scale 2 2 2 Shape \"a\" AttributeEnd Shape \"b\"\n\
-         ObjectBegin \"o\" Shape \"c\" ObjectEnd ActiveTransform StartTime Translate 0 4 0 ObjectInstance \"o\"",
-    );
-    let [a, b, c] = [0, 1, 2].map(|i: usize| &desc.shapes[i].world_from_object);
-    assert_eq!(a.keys().iter().map(|k| k.0).collect::<Vec<_>>(), [1.0, 3.0]);
-    is(a.at(1.0), [[2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [0., 0., 0.]]);
-    is(a.at(3.0), [[2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [2., 0., 0.]]);
-    assert_eq!(b.keys().len(), 1);
-    assert_eq!((c.at(1.0).translation, c.at(3.0).translation), (DVec3::new(0., 4., 0.), DVec3::ZERO));
 }
 
 #[test]

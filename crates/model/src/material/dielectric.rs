@@ -24,8 +24,13 @@ impl Kind for Dielectric {
         aliases: &["glass"],
         doc: "Smooth glass, water or the like: reflects and refracts as Fresnel's equations say.",
         params: &[
-            ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
-                .range(0.1, 10.0),
+            ParamSpec::new(
+                "eta",
+                ParamType::Index,
+                ParamDefault::Float(1.5),
+                "Index of refraction inside, relative to the outside.",
+            )
+            .range(0.1, 10.0),
             ParamSpec::float("roughness", 0.0, "Only 0 is supported yet.").range(0.0, 1.0),
             ParamSpec::new("uroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
             ParamSpec::new("vroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
@@ -44,7 +49,8 @@ impl Kind for Dielectric {
         if args.float("roughness") > 0.0 {
             args.warning("roughness", "rough dielectrics are not supported yet; smooth is used");
         }
-        Some(Box::new(Self { eta: args.float("eta") }))
+        let eta = args.index("eta");
+        Some(Box::new(Self { eta }))
     }
 }
 

@@ -9,7 +9,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Geometry, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier};
+use super::{ALPHA, Geometry, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier};
 use crate::Surface;
 
 /// A disk at `z = height`; the outside is towards +z. `u = phi / phi_max`, `v` is 0 at the rim and 1 at the inner
@@ -89,6 +89,7 @@ impl Kind for Disk {
             )
             .unit("deg")
             .range(0.0, 360.0),
+            ALPHA,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {

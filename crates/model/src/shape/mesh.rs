@@ -1,85 +1,16 @@
-//! Triangle meshes: their description, and the surface at a hit.
+//! The surface of triangle meshes at a hit.
 //!
 //! `P = b_0 p_0 + b_1 p_1 + b_2 p_2` with `b_0 = 1 - u - v`, `b_1 = u`, `b_2 = v` (lecture, barycentric coordinates).
 //! Partial derivatives solve `p_i = p + u_i dpdu + v_i dpdv` for the triangle's texture coordinates (Physically Based
 //! Rendering, 4th edition, section 6.5.2); the error of the point is that of section 6.8.5. Finding the hit is the
 //! kernel's business (`durer-accel`).
-use std::sync::Arc;
-
 use durer_core::{
     glam::DVec3,
     math::{Frame, Normal3, Point2, Point3, Vector3, error::gamma},
 };
-use durer_scene::{Args, Kind, Mesh, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::Mesh;
 
-use super::Geometry;
 use crate::Surface;
-
-/// The word `trianglemesh`.
-#[derive(Clone, Copy, Debug)]
-pub struct TriangleMesh;
-
-impl Kind for TriangleMesh {
-    type Output = Geometry;
-    const SCHEMA: Schema = Schema {
-        name: "trianglemesh",
-        aliases: &[],
-        doc: "Triangles. The outside is where vertices are seen counter-clockwise, unless vertex normals say otherwise.",
-        params: &[
-            ParamSpec::new("P", ParamType::Point3s, ParamDefault::Required, "Vertices.").unit("m"),
-            ParamSpec::new(
-                "indices",
-                ParamType::Ints,
-                ParamDefault::Unset,
-                "Three vertices per triangle, counted from 0; may be left out if there are just three vertices.",
-            )
-            .range(0.0, f32::INFINITY),
-            ParamSpec::new("N", ParamType::Normals, ParamDefault::Unset, "Shading normal of each vertex."),
-            ParamSpec::new("S", ParamType::Vector3s, ParamDefault::Unset, "Shading tangent of each vertex."),
-            ParamSpec::new("uv", ParamType::Point2s, ParamDefault::Unset, "Texture coordinates of each vertex."),
-        ],
-    };
-    fn build(args: &mut Args<'_>) -> Option<Geometry> {
-        if !args.is_sound() {
-            return None;
-        }
-        let positions: Vec<Point3> = args.triples("P").into_iter().map(Point3::from).collect();
-        let indices = args.ints("indices");
-        let (triples, rest) = indices.as_chunks::<3>();
-        if !rest.is_empty() {
-            args.error(
-                "indices",
-                format!("\"indices\" has {} values, expected a multiple of 3", indices.len()),
-            );
-        }
-        let mut triangles: Vec<[u32; 3]> = triples.iter().map(|t| t.map(|i| i.max(0) as u32)).collect();
-        if !args.is_set("indices") {
-            triangles.push([0, 1, 2]);
-            if positions.len() != 3 {
-                let message =
-                    format!("trianglemesh needs \"integer indices\" for {} vertices", positions.len());
-                args.error("indices", message);
-            }
-        }
-        let normals = args.triples("N").into_iter().map(Normal3::from).collect();
-        let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
-        let tangents = args.triples("S").into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
-        let mesh = Mesh { positions, indices: triangles, normals, uvs, tangents, ..Mesh::default() };
-        if args.is_sound()
-            && let Err(error) = mesh.validate()
-        {
-            let name = match error {
-                durer_scene::MeshError::Index { .. } => "indices",
-                durer_scene::MeshError::Length { attribute: "normals", .. } => "N",
-                durer_scene::MeshError::Length { attribute: "tangents", .. } => "S",
-                durer_scene::MeshError::Length { .. } => "uv",
-                durer_scene::MeshError::NotFinite { .. } | durer_scene::MeshError::Time { .. } => "P",
-            };
-            args.error(name, error.to_string());
-        }
-        args.is_sound().then(|| Geometry::Mesh(Arc::new(mesh)))
-    }
-}
 
 /// Weights of the three vertices of one triangle.
 struct Weights {

@@ -2,22 +2,30 @@
 //!
 //! A new shape is one file here and one line in [`SHAPES`].
 
+mod bilinear;
 mod disk;
+pub mod loopsubdiv;
 mod mesh;
 mod plane;
+mod plymesh;
 pub mod polygon;
 mod sphere;
+mod trianglemesh;
 
 use std::{f32::consts::TAU, fmt::Debug, sync::Arc};
 
 use durer_core::math::{Bounds3, Ray, float};
-use durer_scene::{Entry, Mesh};
+use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
+pub use bilinear::{BilinearMesh, Patch};
 pub use disk::Disk;
-pub use mesh::{TriangleMesh, mesh_surface};
+pub use loopsubdiv::LoopSubdiv;
+pub use mesh::mesh_surface;
 pub use plane::Plane;
+pub use plymesh::PlyMesh;
 pub use polygon::Polygon;
 pub use sphere::Sphere;
+pub use trianglemesh::TriangleMesh;
 
 use crate::Surface;
 
@@ -61,16 +69,23 @@ impl Geometry {
 }
 
 /// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["bilinearmesh", "curve", "cylinder", "loopsubdiv", "plymesh"];
+pub const NOT_YET: &[&str] = &["curve", "cylinder"];
 
 /// All kinds of shape.
 pub const SHAPES: &[Entry<Geometry>] = &[
+    Entry::of::<BilinearMesh>(),
     Entry::of::<Disk>(),
+    Entry::of::<LoopSubdiv>(),
     Entry::of::<Plane>(),
+    Entry::of::<PlyMesh>(),
     Entry::of::<Polygon>(),
     Entry::of::<Sphere>(),
     Entry::of::<TriangleMesh>(),
 ];
+
+/// What every shape of pbrt takes; importers warn about it.
+const ALPHA: ParamSpec =
+    ParamSpec::new("alpha", ParamType::FloatTexture, ParamDefault::Unset, "Cut-outs; not supported yet.");
 
 /// `t` rounded, if it lies in the ray's interval and beyond its lower end by more than `error`, the bound on what is
 /// wrong with it, and by more than rounding it changes it.

@@ -12,7 +12,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Geometry, Shape, ShapeHit, accept, arc_angle};
+use super::{ALPHA, Geometry, Shape, ShapeHit, accept, arc_angle};
 use crate::Surface;
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
@@ -190,6 +190,7 @@ impl Kind for Sphere {
             )
             .unit("deg")
             .range(0.0, 360.0),
+            ALPHA,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {

@@ -1,6 +1,9 @@
 //! Shapes: hits, error bounds, silhouettes, self-intersection.
+mod bilinear;
 mod flat;
+mod loopsubdiv;
 mod mesh;
+mod plymesh;
 mod polygon;
 mod registry;
 mod scale;
@@ -13,14 +16,16 @@ use durer_core::{
     math::{Point3, Ray, Vector3},
 };
 use durer_model::shape::{Geometry, SHAPES, Shape};
-use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType};
+use durer_scene::{Args, Data, Diagnostics, Missing, Node, Params, ValueType};
 
 /// What the registry makes of a node, or everything it complains about.
 fn build(kind: &str, params: Params) -> Result<Geometry, String> {
     let node = Node::new(kind, params);
     let entry = SHAPES.iter().find(|e| e.answers_to(kind)).expect("a registered word");
     let mut diagnostics = Diagnostics::default();
-    let built = (entry.build)(&mut Args::check(&node, entry.schema, &[], &mut diagnostics));
+    let mut args =
+        Args::check(&node, entry.schema, &[], &mut diagnostics).with_assets(&plymesh::Files, Missing::Warn);
+    let built = (entry.build)(&mut args);
     let said = diagnostics.iter().map(|d| d.message.as_str()).collect::<Vec<_>>().join("; ");
     match built {
         Some(geometry) => {

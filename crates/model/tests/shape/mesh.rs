@@ -109,3 +109,37 @@ fn meshes_are_checked() {
     let short = with(3, &[]).with("uv", ValueType::Point2, Data::Floats(vec![0.0; 4]));
     assert!(build("trianglemesh", short).is_err_and(|m| m.contains("texture coordinates")));
 }
+
+#[test]
+fn vertices_move_between_keys() {
+    let at = |z: f32| points(&[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]);
+    let keyed = |keys: &[(&str, f32)]| {
+        keys.iter().fold(Params::new(), |all, (name, z)| {
+            let (ty, data) = at(*z);
+            all.with(name, ty, data)
+        })
+    };
+    let times = |t: &[f32]| (ValueType::Float, Data::Floats(t.to_vec()));
+    let mesh_of = |params: Params| match build("trianglemesh", params) {
+        Ok(Geometry::Mesh(mesh)) => mesh,
+        other => panic!("a mesh: {other:?}"),
+    };
+    let mesh = mesh_of(keyed(&[("P", 0.0), ("P1", 2.0), ("P2", 3.0)]));
+    assert_eq!((0..mesh.keys()).map(|k| mesh.key(k).0).collect::<Vec<_>>(), [0.0, 0.5, 1.0]);
+    assert_eq!(mesh.corners([0, 1, 2], 0.25).map(|p| p.z), [1.0; 3]);
+    assert_eq!(mesh.corners([0, 1, 2], 0.75).map(|p| p.z), [2.5; 3]);
+    let (ty, data) = times(&[2.0, 6.0]);
+    let mesh = mesh_of(keyed(&[("P", 0.0), ("P1", 2.0)]).with("times", ty, data));
+    assert_eq!(mesh.corners([0, 1, 2], 3.0).map(|p| p.z), [0.5; 3]);
+    assert!(mesh_of(keyed(&[("P", 0.0)])).is_still());
+    let wrong = |params: Params| build("trianglemesh", params).err().unwrap_or_default();
+    assert!(wrong(keyed(&[("P", 0.0), ("P2", 1.0)])).contains("\"P2\" is given, but not \"P1\""));
+    let moments = |t: &[f32]| {
+        let (ty, data) = times(t);
+        wrong(keyed(&[("P", 0.0), ("P1", 2.0)]).with("times", ty, data))
+    };
+    assert!(moments(&[0.0]).contains("1 moments, but there are 2"));
+    assert!(moments(&[1.0, 1.0]).contains("not later"));
+    let (ty, data) = points(&[[0.0; 3]; 2]);
+    assert!(wrong(keyed(&[("P", 0.0)]).with("P1", ty, data)).contains("vertex key has 2 entries for 3"));
+}

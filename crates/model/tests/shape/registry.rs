@@ -18,7 +18,12 @@ fn samples(kind: &str) -> Vec<Params> {
     let floats = |v: &[f32]| Data::Floats(v.to_vec());
     match kind {
         "polygon" => vec![Params::new().with("P", ty, data)],
-        "trianglemesh" => {
+        "bilinearmesh" => {
+            let twisted = [[-1.0, -1.0, 0.5], [1.0, -1.0, -0.3], [-1.0, 1.0, -0.6], [0.8, 1.2, 0.4]];
+            [corners, twisted].map(|c| Params::new().with("P", ty, points(&c).1)).to_vec()
+        }
+        "plymesh" => vec![Params::new().string("filename", "square.ply")],
+        "trianglemesh" | "loopsubdiv" => {
             let indices = Data::Ints(vec![0, 1, 2, 0, 2, 3]);
             vec![Params::new().with("P", ty, data).with("indices", ValueType::Integer, indices)]
         }

@@ -5,7 +5,7 @@ use durer_core::{
 };
 use durer_model::{
     Surface,
-    shape::{Disk, Plane, Polygon, Shape, Sphere, mesh_surface, polygon::FillRule},
+    shape::{Disk, Patch, Plane, Polygon, Shape, Sphere, mesh_surface, polygon::FillRule},
 };
 use durer_scene::Mesh;
 use durer_testkit::random::Random;
@@ -70,6 +70,8 @@ fn grazing_rays_never_meet_the_surface_they_leave() {
     let polygon = Polygon::new(&[outline], FillRule::EvenOdd).expect("a polygon");
     sweep("disk", &Disk::new(0.1, 1.0, 0.0, 360.0), 1.0, false);
     sweep("polygon", &polygon, 1.0, false);
+    let flat = [[-1.0, -1.0, 0.3], [1.0, -1.0, 0.3], [-1.0, 1.0, 0.3], [0.8, 1.1, 0.3]].map(Point3::from);
+    sweep("flat patch", &Patch::new(flat), 1.0, false);
     sweep("plane", &Plane::new(Point3::new(0.1, 0.2, 0.3), Vector3::new(0.3, 1.0, -0.2), 1.0), 1.0, false);
     sweep("sphere", &Sphere::new(1.0), 1.0, true);
     for size in SCALES.map(|e| 10f64.powi(e)) {

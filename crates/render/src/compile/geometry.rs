@@ -72,21 +72,35 @@ impl Pending {
     }
 }
 
-/// World bounds of everything finite, at the first key of moving things; empty if there is nothing finite.
+/// World bounds of everything finite, at the first key of moving things; empty if there is nothing finite. A mesh that is
+/// placed again counts by the corners of its box, so that thousands of instances cost no more than their number.
 pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bounds3 {
     let mut bounds = Bounds3::EMPTY;
+    let mut boxes: HashMap<*const Mesh, Option<Bounds3>> = HashMap::new();
+    let mut around =
+        |mesh: &Arc<Mesh>, place: &dyn Fn(&Point3) -> Point3| match boxes.entry(Arc::as_ptr(mesh)) {
+            Entry::Vacant(new) => {
+                new.insert(None);
+                Bounds3::around(mesh.positions.iter().map(place))
+            }
+            Entry::Occupied(mut again) => {
+                let own = || Bounds3::around(mesh.positions.iter().copied());
+                let corners = again.get_mut().get_or_insert_with(own).corners();
+                Bounds3::around(corners.iter().map(place))
+            }
+        };
     for (shape, geometry) in desc.shapes.iter().zip(shapes) {
         let m = shape.world_from_object.at(0.0);
         let place = |p: &Point3| Point3::from_f64(m.transform_point3(p.to_f64()));
         let local = match (geometry, &shape.source) {
-            (Some(Geometry::Mesh(mesh)), _) => Bounds3::around(mesh.positions.iter().map(place)),
+            (Some(Geometry::Mesh(mesh)), _) => around(mesh, &place),
             (Some(Geometry::Shapes(parts)), _) => {
                 let finite = parts.iter().map(|part| part.bounds()).filter(Bounds3::is_finite);
                 finite
                     .fold(Bounds3::EMPTY, |all, b| all.union(Bounds3::around(b.corners().iter().map(place))))
             }
             (None, ShapeSource::Mesh(id)) => match desc.meshes.get(id.index()) {
-                Some(mesh) => Bounds3::around(mesh.positions.iter().map(place)),
+                Some(mesh) => around(mesh, &place),
                 None => Bounds3::EMPTY,
             },
             (None, ShapeSource::Node(_)) => Bounds3::EMPTY,

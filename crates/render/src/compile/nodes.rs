@@ -81,9 +81,11 @@ impl Builder<'_> {
     /// The textures that could be built; a texture may use only those described before it, so there are no loops.
     pub(super) fn textures(&mut self) -> Vec<Box<dyn Texture>> {
         let all = &self.desc.textures;
+        let mut of = |t: &TextureDesc| stand_in(&t.node, "texture", texture::NOT_YET, self.diagnostics);
+        let nodes: Vec<_> = all.iter().map(&mut of).collect();
         let built = self.build_all(all, |this, i, t| {
             let before = all.get(..i).unwrap_or_default();
-            this.apart(texture::textures(t.value), "texture", &t.node, before)
+            this.apart(texture::textures(t.value), "texture", &nodes[i], before)
         });
         built.into_iter().flatten().collect()
     }

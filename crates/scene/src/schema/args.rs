@@ -1,21 +1,11 @@
 //! Checked access to the parameters of a node.
 use std::sync::Arc;
 
-use durer_core::spectrum::Color;
-
 use super::{ParamDefault, ParamSpec, ParamType, Schema, TextureNames};
 use crate::{
-    AssetError, Assets, Data, Diagnostics, Image, Location, Node, Param, TextureDesc, TextureValue, ValueType,
+    AssetError, Assets, Data, Diagnostics, Image, Location, Mesh, Node, Param, TextureDesc, TextureValue,
+    ValueType,
 };
-
-/// A colour, or the index of the colour texture that gives it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ColorInput {
-    /// The same everywhere.
-    Constant(Color),
-    /// Index in [`crate::SceneDesc::textures`].
-    Texture(u32),
-}
 
 /// A number, or the index of the float texture that gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +22,7 @@ pub enum Missing {
     /// An error: no picture.
     #[default]
     Refuse,
-    /// A warning, and `None` where the image was asked for: the kind shows a placeholder.
+    /// A warning, and `None` where the file was asked for: the kind shows a placeholder.
     Warn,
 }
 
@@ -91,7 +81,7 @@ impl<'a> Args<'a> {
         self
     }
 
-    fn error_at(&mut self, at: Location, message: String) -> &mut crate::Diagnostic {
+    pub(super) fn error_at(&mut self, at: Location, message: String) -> &mut crate::Diagnostic {
         self.sound = false;
         self.diagnostics.error(at, message)
     }
@@ -120,8 +110,11 @@ impl<'a> Args<'a> {
         }
         match &param.data {
             Data::Floats(values) => {
+                // Of an index given as a spectrum, the one value that is taken from it is checked.
+                let spectrum = param.ty == ValueType::Spectrum && spec.ty == ParamType::Index;
                 let (min, max) = spec.range;
-                if let Some(v) = values.iter().find(|v| !(**v >= min && **v <= max && v.is_finite())) {
+                let wrong = |v: &&f32| !(**v >= min && **v <= max && v.is_finite());
+                if let Some(v) = values.iter().find(wrong).filter(|_| !spectrum) {
                     let message = format!("\"{name}\" is {v}, expected {}", range_text(spec));
                     self.error_at(param.at.clone(), message);
                 }
@@ -172,10 +165,14 @@ impl<'a> Args<'a> {
         self.node.params.get(name).is_some()
     }
 
-    fn default(&self, name: &str) -> ParamDefault {
+    pub(super) fn spec(&self, name: &str) -> Option<&'static ParamSpec> {
         let spec = self.schema.params.iter().find(|s| s.name == name);
         debug_assert!(spec.is_some(), "{} has no parameter {name}", self.schema.name);
-        spec.map_or(ParamDefault::Unset, |s| s.default)
+        spec
+    }
+
+    pub(super) fn default(&self, name: &str) -> ParamDefault {
+        self.spec(name).map_or(ParamDefault::Unset, |s| s.default)
     }
 
     fn floats_of(&self, name: &str) -> Option<&'a [f32]> {
@@ -255,42 +252,6 @@ impl<'a> Args<'a> {
             _ => "",
         }
     }
-    /// A colour.
-    pub fn color(&mut self, name: &str) -> Color {
-        match self.color_input(name) {
-            ColorInput::Constant(c) => c,
-            ColorInput::Texture(_) => Color::BLACK,
-        }
-    }
-    /// A colour or a colour texture; complains about a texture that does not exist.
-    pub fn color_input(&mut self, name: &str) -> ColorInput {
-        let Some(param) = self.node.params.get(name) else {
-            let ParamDefault::Triple(rgb) = self.default(name) else {
-                return ColorInput::Constant(Color::BLACK);
-            };
-            return ColorInput::Constant(Color { rgb });
-        };
-        match (param.ty, &param.data) {
-            (ValueType::Texture, Data::Strings(v)) => match self.texture(param, v, TextureValue::Color) {
-                Some(index) => ColorInput::Texture(index),
-                None => ColorInput::Constant(Color::BLACK),
-            },
-            (ValueType::Rgb, Data::Floats(v)) => ColorInput::Constant(rgb(v)),
-            (ValueType::Spectrum, Data::Floats(v)) => {
-                self.warning(
-                    name,
-                    "spectra are read as the mean of their values until spectral rendering exists",
-                );
-                let values = v.iter().skip(1).step_by(2);
-                ColorInput::Constant(Color::gray(values.sum::<f32>() / (v.len() / 2).max(1) as f32))
-            }
-            _ => {
-                let message = format!("{} values are not supported here yet; white is used", param.ty.word());
-                self.warning(name, message);
-                ColorInput::Constant(Color::WHITE)
-            }
-        }
-    }
     /// A number or a float texture; complains about a texture that does not exist.
     pub fn float_input(&mut self, name: &str) -> FloatInput {
         match self.node.params.get(name) {
@@ -307,20 +268,46 @@ impl<'a> Args<'a> {
             self.error(name, "no files can be read here");
             return None;
         };
-        match assets.image(self.text(name)) {
-            Ok(image) => Some(image),
-            Err(error @ AssetError::Missing { .. }) if missing == Missing::Warn => {
-                self.warning(name, format!("{error}; a placeholder is shown"));
-                None
-            }
-            Err(error) => {
-                self.error(name, error.to_string());
-                None
-            }
-        }
+        self.found(name, assets.image(self.text(name)), missing, "a placeholder is shown")
     }
 
-    fn texture(&mut self, param: &Param, names: &[String], value: TextureValue) -> Option<u32> {
+    /// The mesh in the file that a [`ParamType::File`] names; `None` if it cannot be had, which was then complained
+    /// about.
+    pub fn mesh(&mut self, name: &str) -> Option<Arc<Mesh>> {
+        let Some((assets, missing)) = self.assets else {
+            self.error(name, "no files can be read here");
+            return None;
+        };
+        self.found(name, assets.mesh(self.text(name)), missing, "nothing is shown")
+    }
+
+    fn found<T>(
+        &mut self,
+        name: &str,
+        asked: Result<T, AssetError>,
+        missing: Missing,
+        instead: &str,
+    ) -> Option<T> {
+        match asked {
+            Ok(found) => return Some(found),
+            Err(error @ AssetError::Missing { .. }) if missing == Missing::Warn => {
+                self.warning(name, format!("{error}; {instead}"));
+            }
+            Err(error) => self.error(name, error.to_string()),
+        }
+        None
+    }
+
+    /// The contents of the file at `path`, or why they cannot be had; `None` where no files can be read.
+    pub(super) fn bytes(&self, path: &str) -> Option<Result<Arc<[u8]>, AssetError>> {
+        self.assets.map(|(assets, _)| assets.bytes(path))
+    }
+
+    pub(super) fn param(&self, name: &str) -> Option<&'a Param> {
+        self.node.params.get(name)
+    }
+
+    pub(super) fn texture(&mut self, param: &Param, names: &[String], value: TextureValue) -> Option<u32> {
         let name = names.first()?;
         let found = match self.names {
             Some(names) => names.find(value, name).filter(|&index| index < self.textures.len()),
@@ -339,14 +326,7 @@ impl<'a> Args<'a> {
     }
 }
 
-fn rgb(v: &[f32]) -> Color {
-    match v {
-        [r, g, b, ..] => Color::new(*r, *g, *b),
-        _ => Color::BLACK,
-    }
-}
-
-fn range_text(spec: &ParamSpec) -> String {
+pub(super) fn range_text(spec: &ParamSpec) -> String {
     let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
     match spec.range {
         (min, max) if min.is_finite() && max.is_finite() => format!("{min} to {max}{unit}"),

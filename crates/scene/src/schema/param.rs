@@ -32,6 +32,8 @@ pub enum ParamType {
     Choice(&'static [&'static str]),
     /// A path relative to the scene file.
     File,
+    /// An index of refraction: a number, or a spectrum, of which the value at 587.6 nm is taken.
+    Index,
     /// A colour.
     Color,
     /// A colour, or a colour texture's name.
@@ -53,6 +55,7 @@ impl ParamType {
             Self::Vector3 | Self::Vector3s => &[V::Vector3],
             Self::Normals => &[V::Normal],
             Self::Text | Self::Choice(_) | Self::File => &[V::String],
+            Self::Index => &[V::Float, V::Spectrum],
             Self::Color => &[V::Rgb, V::Spectrum, V::Blackbody],
             Self::ColorTexture => &[V::Rgb, V::Spectrum, V::Blackbody, V::Texture],
             Self::FloatTexture => &[V::Float, V::Texture],
@@ -78,7 +81,7 @@ pub enum ParamDefault {
     Bool(bool),
     /// A whole number.
     Int(i32),
-    /// A number, for [`ParamType::Float`] and [`ParamType::FloatTexture`].
+    /// A number, for [`ParamType::Float`], [`ParamType::Index`] and [`ParamType::FloatTexture`].
     Float(f32),
     /// Three numbers: a point, vector or linear RGB colour.
     Triple([f32; 3]),
@@ -123,6 +126,10 @@ impl ParamSpec {
     /// A number or float texture.
     pub const fn float_texture(name: &'static str, default: f32, doc: &'static str) -> Self {
         Self::new(name, ParamType::FloatTexture, ParamDefault::Float(default), doc)
+    }
+    /// Whether it is an amount of light, and not a share of it: it has a unit then.
+    pub const fn is_light(&self) -> bool {
+        !self.unit.is_empty()
     }
     /// With a unit.
     #[must_use]

@@ -90,7 +90,7 @@ impl Parser<'_> {
             self.input.error(name.at, "an object cannot contain instances");
             return Ok(());
         }
-        self.world.instance(&name, self.state.ctm);
+        self.world.instance(&name, self.state.ctm.clone());
         Ok(())
     }
 

@@ -11,7 +11,7 @@ pub(super) enum Place {
     Any,
 }
 
-/// A directive of pbrt-v4.
+/// A directive of pbrt-v4, or our addition `TransformKeys`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Directive {
     Accelerator,
@@ -51,6 +51,7 @@ pub(super) enum Directive {
     Transform,
     TransformBegin,
     TransformEnd,
+    TransformKeys,
     TransformTimes,
     Translate,
     WorldBegin,
@@ -91,6 +92,7 @@ const TABLE: &[(&str, Directive, Place)] = &[
     ("CoordinateSystem", D::CoordinateSystem, Place::Any),
     ("CoordSysTransform", D::CoordSysTransform, Place::Any),
     ("ActiveTransform", D::ActiveTransform, Place::Any),
+    ("TransformKeys", D::TransformKeys, Place::Any),
     ("TransformTimes", D::TransformTimes, Place::Options),
     ("ColorSpace", D::ColorSpace, Place::Any),
     ("Option", D::Option, Place::Any),

@@ -11,6 +11,7 @@ use std::{
     sync::Arc,
 };
 
+use crate::gzip;
 use durer_scene::{Diagnostics, Limits, Location, SourceId, Sources, Span};
 
 /// True if spans, which count bytes in 32 bits, can point at all of `text`.
@@ -146,14 +147,14 @@ impl Files {
         }
         // Spans count bytes in 32 bits.
         let most = self.limits.file_bytes.min(u64::from(u32::MAX) - 4);
-        let bytes = match read_bytes(&path, most) {
+        let bytes = match read_bytes(&path, &shown, Limits { file_bytes: most, ..self.limits }) {
             Ok(bytes) if bytes.len() as u64 > most || !self.charge(bytes.len() as u64) => {
                 diagnostics.error(at, format!("{shown}: larger than {most} bytes"));
                 return None;
             }
             Ok(bytes) => bytes,
-            Err(e) => {
-                diagnostics.error(at, format!("{shown}: {}", reason(&e)));
+            Err(message) => {
+                diagnostics.error(at, message);
                 return None;
             }
         };
@@ -180,20 +181,26 @@ fn reason(e: &std::io::Error) -> String {
     if e.kind() == ErrorKind::NotFound { "file not found".to_owned() } else { e.to_string() }
 }
 
-/// The file's bytes, at most one more than `most`.
-fn read_bytes(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    let about = file.metadata()?;
+/// The file's bytes, unpacked if it is gzip; of one that is not, at most one more than the limit.
+///
+/// # Errors
+/// What to tell; messages call the file `shown`.
+fn read_bytes(path: &Path, shown: &str, limits: Limits) -> Result<Vec<u8>, String> {
+    let fail = |e: std::io::Error| format!("{shown}: {}", reason(&e));
+    let file = File::open(path).map_err(fail)?;
+    let about = file.metadata().map_err(fail)?;
     if about.is_dir() {
-        return Err(std::io::Error::new(ErrorKind::IsADirectory, "this is a folder"));
+        return Err(format!("{shown}: this is a folder"));
     }
+    let most = limits.file_bytes;
     let mut bytes = Vec::with_capacity(about.len().min(most) as usize + 1);
-    file.take(most + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    file.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;
+    let packed = gzip::is_packed(&bytes) && bytes.len() as u64 <= most;
+    if packed { gzip::unpack(&bytes, shown, limits).map_err(|e| e.to_string()) } else { Ok(bytes) }
 }
 
 /// Registers the text, complaining about bytes that are none. Wrong bytes in a text are shown as U+FFFD and reading
-/// goes on; other formats are told by their first bytes and refused.
+/// goes on, in comments without a word; other formats are told by their first bytes and refused.
 fn decode(
     bytes: Vec<u8>,
     shown: String,
@@ -205,25 +212,59 @@ fn decode(
             let text: Arc<str> = text.into();
             return Some((sources.add(shown, text.clone()), text));
         }
-        Err(e) => e,
+        Err(e) => e.into_bytes(),
     };
-    let first = bytes.utf8_error().valid_up_to() as u32;
-    let bytes = bytes.into_bytes();
     let other = match bytes.as_slice() {
-        [0x1f, 0x8b, ..] => Some("this is a gzip file; unpack it first"),
+        [0x1f, 0x8b, ..] => Some("this is no gzip file that can be unpacked"),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("this is UTF-16; save it as UTF-8"),
         b if b.contains(&0) || b.len() > u32::MAX as usize / 3 => {
             Some("this is a binary file, not a pbrt scene")
         }
         _ => None,
     };
-    let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
-    let source = sources.add(shown.clone(), if other.is_some() { Arc::from("") } else { text.clone() });
     if let Some(other) = other {
+        sources.add(shown.clone(), Arc::from(""));
         diagnostics.error(Location::None, format!("{shown}: {other}"));
         return None;
     }
-    let at = Span { source, start: first, end: first + '\u{fffd}'.len_utf8() as u32 };
-    diagnostics.error(at, "this is not valid UTF-8").hint("save the file as UTF-8");
+    let (text, first) = with_replacements(&bytes);
+    let text: Arc<str> = text.into();
+    let source = sources.add(shown, text.clone());
+    if let Some(start) = first {
+        let at = Span { source, start, end: start + '\u{fffd}'.len_utf8() as u32 };
+        diagnostics.error(at, "this is not valid UTF-8").hint("save the file as UTF-8");
+    }
     Some((source, text))
+}
+
+/// The text with U+FFFD for bytes that are none, and where the first of these outside of comments is.
+fn with_replacements(bytes: &[u8]) -> (String, Option<u32>) {
+    #[derive(PartialEq)]
+    enum In {
+        Text,
+        Quotes,
+        Comment,
+    }
+    let mut text = String::with_capacity(bytes.len());
+    let (mut first, mut place, mut escaped) = (None, In::Text, false);
+    for chunk in bytes.utf8_chunks() {
+        for c in chunk.valid().chars() {
+            place = match (place, c) {
+                (_, '\n' | '\r') => In::Text,
+                (In::Text, '#') => In::Comment,
+                (In::Text, '"') => In::Quotes,
+                (In::Quotes, '"') if !escaped => In::Text,
+                (place, _) => place,
+            };
+            escaped = c == '\\' && !escaped;
+        }
+        text.push_str(chunk.valid());
+        if !chunk.invalid().is_empty() {
+            if place != In::Comment {
+                first.get_or_insert(text.len() as u32);
+            }
+            text.push('\u{fffd}');
+        }
+    }
+    (text, first)
 }

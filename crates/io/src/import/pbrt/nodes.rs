@@ -8,16 +8,20 @@ use super::{
     lexer::{Token, TokenKind},
     params::{ParamList, stored, take},
     parser::Parser,
+    retired,
     state::Target,
     world::PlacedShape,
 };
 
 impl Parser<'_> {
-    /// A kind and its parameters.
+    /// A kind and its parameters; `what` is "a kind of" something where older versions had other words.
     pub(super) fn kind_and_params(&mut self, head: Token, what: &str) -> Result<(Word, ParamList), Reported> {
         let kind = self.input.string(head, what)?;
-        let params = self.input.params()?;
-        Ok((kind, params))
+        let mut params = self.input.params()?;
+        retired::sift(&mut params, self.input.diagnostics);
+        let family = what.strip_prefix("a kind of ").unwrap_or("");
+        let retired = retired::complain(family, &kind, self.input.diagnostics);
+        if retired { Err(Reported) } else { Ok((kind, params)) }
     }
 
     pub(super) fn node(&mut self, head: Token, what: &str) -> Result<Node, Reported> {
@@ -86,14 +90,32 @@ impl Parser<'_> {
         let (kind, params) = self.kind_and_params(head, "a kind of shape")?;
         let mut params = self.inherit(Target::Shape, params, &kind);
         let name = self.name(&mut params);
-        self.world.shape(PlacedShape {
+        self.check_alpha(&params);
+        let at = kind.at;
+        let fits = self.world.shape(PlacedShape {
             name,
             node: Arc::new(Node { kind: kind.text, params: stored(params), at: kind.at.into() }),
-            placement: self.state.ctm,
+            placement: self.state.ctm.clone(),
             material: self.state.material,
             reverse: self.state.reverse,
         });
+        if let Err(message) = fits
+            && self.first_time(message)
+        {
+            self.input.error(at, message);
+        }
         Ok(())
+    }
+
+    /// Says once that shapes have no cut-outs yet.
+    fn check_alpha(&mut self, params: &ParamList) {
+        let alpha = params.iter().find(|p| p.name == "alpha" && p.data != Data::Floats(vec![1.0]));
+        if let Some(alpha) = alpha
+            && self.first_time("alpha")
+        {
+            let message = "\"alpha\" of shapes is not supported yet: they are shown whole";
+            self.input.diagnostics.warning(alpha.at.clone(), message);
+        }
     }
 
     /// `LightSource`
@@ -135,7 +157,10 @@ impl Parser<'_> {
     /// `MakeNamedMaterial`
     pub(super) fn make_named_material(&mut self, head: Token) -> Result<(), Reported> {
         let name = self.input.string(head, "a name")?;
-        let params = self.input.params();
+        let mut params = self.input.params();
+        if let Ok(params) = &mut params {
+            retired::sift(params, self.input.diagnostics);
+        }
         let node = params.as_ref().ok().cloned().and_then(|params| self.named_node(params, &name));
         self.world.define_material(&name, node, self.input.diagnostics);
         params.map(|_| ())
@@ -153,6 +178,10 @@ impl Parser<'_> {
             return None;
         };
         let kind = kinds.into_iter().next().unwrap_or_default();
+        let word = Word { text: kind.clone(), at: name.at };
+        if retired::complain("material", &word, self.input.diagnostics) {
+            return None;
+        }
         let kind = if kind.is_empty() { "interface".to_owned() } else { kind };
         Some(Node { kind, params: stored(params), at: ty.at })
     }

@@ -11,8 +11,8 @@ use super::{
     files::{Files, Text},
     input::{Input, Reported},
     lexer::{Lexer, Token, TokenKind},
+    placement::{Active, Placement},
     state::{Block, State},
-    transform::Placement,
     world::World,
 };
 
@@ -175,6 +175,7 @@ impl<'a> Parser<'a> {
             | D::CoordinateSystem
             | D::CoordSysTransform
             | D::ActiveTransform
+            | D::TransformKeys
             | D::TransformTimes => self.transform(directive, head),
             D::Camera => self.camera(head),
             D::Film => self.film(head),
@@ -231,8 +232,8 @@ impl<'a> Parser<'a> {
 
     fn begin_world(&mut self) {
         self.world_began = true;
-        self.state.ctm = Placement::IDENTITY;
-        self.state.active = super::transform::Active::All;
-        self.coordinate_systems.insert("world".to_owned(), Placement::IDENTITY);
+        self.state.ctm = Placement::identity();
+        self.state.active = Active::All;
+        self.coordinate_systems.insert("world".to_owned(), Placement::identity());
     }
 }

@@ -1,13 +1,20 @@
 //! The directives that change the current transformation.
 use durer_core::glam::{DAffine3, DVec3};
+use durer_scene::Node;
 
 use super::{
     directive::Directive,
     input::Reported,
+    keys::{self, KEYS},
     lexer::Token,
+    params::stored,
     parser::Parser,
-    transform::{Active, Placement, look_at, matrix, rotate},
+    placement::{Active, Placement},
+    transform::{look_at, matrix, rotate},
 };
+
+/// Most motions within each other: the product has the keys of all.
+const MOST_MOTIONS: usize = 4;
 
 /// What a directive does to the matrix.
 enum Change {
@@ -25,6 +32,7 @@ impl Parser<'_> {
             Directive::CoordSysTransform => return self.coord_sys_transform(head),
             Directive::ActiveTransform => return self.active_transform(head),
             Directive::TransformTimes => return self.transform_times(head),
+            Directive::TransformKeys => return self.transform_keys(head),
             Directive::Identity => Ok(Change::Set(DAffine3::IDENTITY)),
             Directive::Translate => Ok(Change::Concat(DAffine3::from_translation(self.input.vector(head)?))),
             Directive::Scale => Ok(Change::Concat(DAffine3::from_scale(self.input.vector(head)?))),
@@ -41,24 +49,18 @@ impl Parser<'_> {
             Directive::Transform => matrix(&self.input.matrix(head)?).map(Change::Set),
             _ => matrix(&self.input.matrix(head)?).map(Change::Concat),
         };
-        let applied = change.and_then(|change| {
-            self.state.active.apply(&self.state.ctm, |old| match &change {
-                Change::Concat(m) => *old * *m,
-                Change::Set(m) => *m,
-            })
+        let (ctm, active) = (&self.state.ctm, self.state.active);
+        let applied = change.and_then(|change| match &change {
+            Change::Concat(m) => ctm.times(active, m),
+            Change::Set(m) => ctm.with(active, m, self.world.times),
         });
-        match applied {
-            Ok(ctm) => self.state.ctm = ctm,
-            Err(message) => {
-                self.input.error(self.input.lexer.span(head), message);
-            }
-        }
+        self.placed(applied, head);
         Ok(())
     }
 
     fn coordinate_system(&mut self, head: Token) -> Result<(), Reported> {
         let name = self.input.string(head, "a name")?;
-        self.coordinate_systems.insert(name.text, self.state.ctm);
+        self.coordinate_systems.insert(name.text, self.state.ctm.clone());
         Ok(())
     }
 
@@ -70,14 +72,45 @@ impl Parser<'_> {
             self.input.diagnostics.unknown(name.at, "coordinate system", &name.text, known);
             return Ok(());
         };
-        let mut ctm: Placement = self.state.ctm;
-        if self.state.active != Active::End {
-            ctm.start = system.start;
+        let applied = match self.state.active {
+            Active::All => Ok(system.clone()),
+            active => {
+                let (start, end) = self.world.times;
+                let at = if active == Active::Start { start } else { end };
+                self.state.ctm.with(active, &system.at(at, self.world.times), self.world.times)
+            }
+        };
+        self.placed(applied, head);
+        Ok(())
+    }
+
+    /// Goes on from a new placement, or complains.
+    fn placed(&mut self, applied: Result<Placement, &'static str>, head: Token) {
+        match applied {
+            Ok(ctm) => self.state.ctm = ctm,
+            Err(message) => {
+                self.input.error(self.input.lexer.span(head), message);
+            }
         }
-        if self.state.active != Active::Start {
-            ctm.end = system.end;
+    }
+
+    /// `TransformKeys`, our addition.
+    fn transform_keys(&mut self, head: Token) -> Result<(), Reported> {
+        let at = self.input.lexer.span(head);
+        let params = self.input.params()?;
+        if self.state.active != Active::All {
+            self.input.error(at, "TransformKeys says itself what is when: it needs ActiveTransform All");
+            return Ok(());
         }
-        self.state.ctm = ctm;
+        if self.state.ctm.depth() >= MOST_MOTIONS {
+            let message = format!("TransformKeys stands within TransformKeys more than {MOST_MOTIONS} deep");
+            self.input.error(at, message);
+            return Ok(());
+        }
+        let node = Node { kind: KEYS.name.to_owned(), params: stored(params), at: at.into() };
+        if let Some(motion) = keys::read(&node, self.input.diagnostics) {
+            self.state.ctm = self.state.ctm.keyed(motion);
+        }
         Ok(())
     }
 

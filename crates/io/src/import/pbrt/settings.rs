@@ -30,7 +30,7 @@ impl Parser<'_> {
     pub(super) fn camera(&mut self, head: Token) -> Result<(), Reported> {
         // Known even if the parameters are wrong, so that CoordSysTransform "camera" makes no second error.
         let world_from_camera = self.state.ctm.inverse();
-        self.coordinate_systems.insert("camera".to_owned(), world_from_camera);
+        self.coordinate_systems.insert("camera".to_owned(), world_from_camera.clone());
         let (kind, mut params) = self.kind_and_params(head, "a kind of camera")?;
         let name = self.name(&mut params);
         let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };

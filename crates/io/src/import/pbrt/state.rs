@@ -6,7 +6,7 @@ use durer_scene::{MaterialRef, Span};
 use super::{
     directive::Directive,
     params::{MOST_PARAMS, ParamList},
-    transform::{Active, Placement},
+    placement::{Active, Placement},
 };
 
 /// What an `Attribute` directive gives parameters to.
@@ -74,7 +74,7 @@ pub(super) struct State {
 impl State {
     pub(super) fn new() -> Self {
         Self {
-            ctm: Placement::IDENTITY,
+            ctm: Placement::identity(),
             active: Active::All,
             material: None,
             reverse: false,

@@ -1,94 +1,8 @@
-//! The current transformation matrix and the directives that change it.
+//! The matrices that directives make.
 //!
-//! pbrt keeps two matrices, one for the start and one for the end of the shutter interval; `ActiveTransform` says which
-//! of them the directives change. Conventions of pbrt-v4: matrices multiply from the right (`CTM * M`), a written
-//! matrix lists its columns, angles are degrees, `LookAt` makes the left-handed camera space (x right, y up, z ahead).
-use durer_core::{
-    glam::{DAffine3, DMat3, DVec3},
-    math::Motion,
-};
-
-/// `world_from_current` at the two transform times.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Placement {
-    /// At the first transform time.
-    pub(super) start: DAffine3,
-    /// At the second.
-    pub(super) end: DAffine3,
-}
-
-impl Placement {
-    pub(super) const IDENTITY: Self = Self { start: DAffine3::IDENTITY, end: DAffine3::IDENTITY };
-
-    /// The way back. Every matrix was checked by [`Active::apply`] when it came about.
-    pub(super) fn inverse(&self) -> Self {
-        Self { start: self.start.inverse(), end: self.end.inverse() }
-    }
-
-    /// `self * inner`: something placed within something placed.
-    pub(super) fn compose(&self, inner: &Self) -> Self {
-        Self { start: self.start * inner.start, end: self.end * inner.end }
-    }
-
-    /// As keys at `times`; one key if it does not move.
-    pub(super) fn motion(&self, times: (f64, f64)) -> Motion {
-        let still = Motion::still(self.start);
-        if self.start == self.end {
-            return still;
-        }
-        Motion::keyed(vec![(times.0, self.start), (times.1, self.end)]).unwrap_or(still)
-    }
-}
-
-/// Which matrices a directive changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Active {
-    /// `ActiveTransform StartTime`
-    Start,
-    /// `ActiveTransform EndTime`
-    End,
-    /// `ActiveTransform All`
-    All,
-}
-
-impl Active {
-    /// The words of the language.
-    pub(super) const WORDS: [(&str, Self); 3] =
-        [("StartTime", Self::Start), ("EndTime", Self::End), ("All", Self::All)];
-
-    /// `placement` with its active matrices changed by `change`.
-    ///
-    /// # Errors
-    /// If a result cannot be inverted.
-    pub(super) fn apply(
-        self,
-        placement: &Placement,
-        change: impl Fn(&DAffine3) -> DAffine3,
-    ) -> Result<Placement, &'static str> {
-        let mut new = *placement;
-        if self != Self::End {
-            new.start = change(&placement.start);
-        }
-        if self != Self::Start {
-            new.end = change(&placement.end);
-        }
-        if is_invertible(&new.start) && is_invertible(&new.end) { Ok(new) } else { Err(SINGULAR) }
-    }
-}
-
-const SINGULAR: &str =
-    "this makes the current transformation singular: it has no inverse, so shapes would be flat";
-
-/// True if the matrix is finite and has a finite inverse.
-pub(super) fn is_invertible(m: &DAffine3) -> bool {
-    if !m.is_finite() {
-        return false;
-    }
-    let lengths = m.matrix3.x_axis.length() * m.matrix3.y_axis.length() * m.matrix3.z_axis.length();
-    let det = m.matrix3.determinant().abs();
-    // Relative to the columns, so that a small scale is no reason; rounding leaves about 1e-16 of a singular one.
-    det > 1e-15 * lengths && m.inverse().is_finite()
-}
+//! Conventions of pbrt-v4: a written matrix lists its columns, angles are degrees, `LookAt` makes the left-handed camera
+//! space (x right, y up, z ahead).
+use durer_core::glam::{DAffine3, DMat3, DVec3};
 
 /// The matrix of 16 numbers, column by column.
 ///
@@ -143,7 +57,7 @@ pub(super) fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DAffine3, 
 }
 
 /// Unit vector, whatever the size of the numbers; `None` for zero and what is not finite.
-fn unit(v: DVec3) -> Option<DVec3> {
+pub(super) fn unit(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     if largest > 0.0 && largest.is_finite() { (v / largest).try_normalize() } else { None }
 }
@@ -201,25 +115,9 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_inverse_is_refused() {
-        let flat = |_: &DAffine3| DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0));
-        assert!(Active::All.apply(&Placement::IDENTITY, flat).is_err());
-        let small = |_: &DAffine3| DAffine3::from_scale(DVec3::new(1e-20, 1e-30, 1e-20));
-        assert!(Active::All.apply(&Placement::IDENTITY, small).is_ok());
-        let huge = |_: &DAffine3| DAffine3::from_scale(DVec3::splat(1e200));
-        assert!(Active::All.apply(&Placement::IDENTITY, huge).is_err());
+    fn what_spans_no_frame_is_refused() {
         assert!(look_at(DVec3::ONE, DVec3::ONE, DVec3::Y).is_err());
         assert!(look_at(DVec3::ZERO, DVec3::Y, DVec3::Y).is_err());
         assert!(rotate(1.0, DVec3::ZERO).is_err());
-    }
-
-    #[test]
-    fn only_active_matrices_change() {
-        let shift = |m: &DAffine3| *m * DAffine3::from_translation(DVec3::X);
-        let p = Active::End.apply(&Placement::IDENTITY, shift).expect("invertible");
-        assert_eq!((p.start.translation, p.end.translation), (DVec3::ZERO, DVec3::X));
-        let motion = p.motion((2.0, 4.0));
-        assert_eq!(motion.keys().iter().map(|k| k.0).collect::<Vec<_>>(), [2.0, 4.0]);
-        assert_eq!(Placement::IDENTITY.motion((0.0, 1.0)).keys().len(), 1);
     }
 }

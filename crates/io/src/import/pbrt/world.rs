@@ -16,7 +16,7 @@ use durer_scene::{
 
 use super::{
     input::Word,
-    transform::{Placement, is_invertible},
+    placement::{Placement, is_invertible},
 };
 
 /// Most memory, in units of about four bytes, that copies of shapes and parameters may take.
@@ -44,13 +44,15 @@ pub(super) struct PlacedShape {
 }
 
 impl PlacedShape {
-    fn within(self, parent: &Placement, times: (f64, f64)) -> Option<ShapeDesc> {
-        let placement = parent.compose(&self.placement);
-        let sound = is_invertible(&placement.start) && is_invertible(&placement.end);
-        sound.then(|| ShapeDesc {
+    fn within(self, parent: &Placement, times: (f64, f64)) -> Result<ShapeDesc, &'static str> {
+        let motion = parent.compose(&self.placement).motion(times);
+        if motion.keys().iter().any(|(_, m)| !is_invertible(m)) {
+            return Err("a shape of this instance gets a singular transformation");
+        }
+        Ok(ShapeDesc {
             name: self.name,
             source: ShapeSource::Node(self.node),
-            world_from_object: placement.motion(times),
+            world_from_object: motion,
             material: self.material,
             reverse_orientation: self.reverse,
         })
@@ -188,12 +190,18 @@ impl<'a> World<'a> {
     }
 
     /// Adds a shape to the scene or the open object.
-    pub(super) fn shape(&mut self, shape: PlacedShape) {
-        match self.open_object.and_then(|index| self.shapes.get_mut(index)) {
-            Some(shapes) => shapes.push(shape),
-            // Its matrices were checked when they came about, so this is never `None`.
-            None => self.desc.shapes.extend(shape.within(&Placement::IDENTITY, self.times)),
+    ///
+    /// # Errors
+    /// What is wrong with its placement.
+    pub(super) fn shape(&mut self, shape: PlacedShape) -> Result<(), &'static str> {
+        if let Some(shapes) = self.open_object.and_then(|index| self.shapes.get_mut(index)) {
+            shapes.push(shape);
+            return Ok(());
         }
+        let placed = shape.within(&Placement::identity(), self.times)?;
+        charge_keys(&mut self.copied, &placed)?;
+        self.desc.shapes.push(placed);
+        Ok(())
     }
 
     /// Counts a copy of `params`; false if all copies together are too large.
@@ -203,7 +211,7 @@ impl<'a> World<'a> {
     }
 
     /// Unfolds instances and complains about names that were never defined.
-    pub(super) fn finish(self, diagnostics: &mut Diagnostics) {
+    pub(super) fn finish(mut self, diagnostics: &mut Diagnostics) {
         undefined("material", &self.materials, diagnostics);
         undefined("object", &self.objects, diagnostics);
         let unused = self.objects.values().filter(|s| s.used.is_none()).count();
@@ -220,13 +228,31 @@ impl<'a> World<'a> {
                 return;
             }
             for shape in self.shapes.get(instance.object).into_iter().flatten() {
-                let Some(shape) = shape.clone().within(&instance.placement, self.times) else {
-                    diagnostics.error(instance.at, "a shape of this instance gets a singular transformation");
-                    break;
-                };
-                self.desc.shapes.push(shape);
+                let placed = shape.clone().within(&instance.placement, self.times);
+                match placed.and_then(|shape| charge_keys(&mut self.copied, &shape).map(|()| shape)) {
+                    Ok(shape) => self.desc.shapes.push(shape),
+                    Err(message) => {
+                        diagnostics.error(instance.at, message);
+                        if diagnostics.is_full() {
+                            return;
+                        }
+                        break;
+                    }
+                }
             }
         }
+    }
+}
+
+/// Counts the keys of a moving shape among the copies.
+fn charge_keys(copied: &mut u64, shape: &ShapeDesc) -> Result<(), &'static str> {
+    // A key is a time and twelve numbers in f64; the one of a still shape is counted with the shapes.
+    let keys = shape.world_from_object.keys().len() as u64 - 1;
+    *copied = copied.saturating_add(keys * 26);
+    if keys == 0 || *copied <= MOST_COPIED {
+        Ok(())
+    } else {
+        Err("the keys of moving shapes take more than 1 GiB in all")
     }
 }
 

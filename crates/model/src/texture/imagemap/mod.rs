@@ -209,6 +209,7 @@ const FILTER: ParamSpec = ParamSpec::new(
     ParamDefault::Text("bilinear"),
     "Between texel centres: interpolate, or take the nearest (point).",
 );
+const MAX_ANISOTROPY: ParamSpec = ParamSpec::float("maxanisotropy", 8.0, "Of the ewa filter; no effect.");
 const SCALE: ParamSpec = ParamSpec::float("scale", 1.0, "Factor of all values.");
 const INVERT: ParamSpec =
     ParamSpec::new("invert", ParamType::Bool, ParamDefault::Bool(false), "Take 1 - x of every scaled value.");
@@ -229,6 +230,7 @@ impl Kind for ColorImageMap {
             WRAP_V,
             ENCODING,
             FILTER,
+            MAX_ANISOTROPY,
             SCALE,
             ParamSpec::color("factor", [1.0; 3], "Linear factor of the colours, after inversion."),
             INVERT,
@@ -261,6 +263,7 @@ impl Kind for FloatImageMap {
             WRAP_V,
             ENCODING,
             FILTER,
+            MAX_ANISOTROPY,
             SCALE,
             ParamSpec::new(
                 "channel",

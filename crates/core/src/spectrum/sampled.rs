@@ -1,0 +1,173 @@
+//! Measured spectra as colours.
+//!
+//! Until rays carry wavelengths, a spectrum becomes linear Rec. 709 where it is read:
+//! a share of light (reflectance, transmittance) by what it does to D65, `sum(R D65 c) / sum(D65 c)` for each of the
+//! three matching functions `c` of Rec. 709, so that a share of 1 at all wavelengths is exactly white (1, 1, 1);
+//! a light by its own XYZ, scaled to luminance 1 (pbrt-v4 divides lights by their luminance too; `scale` and `power` say
+//! how strong they are). Components below 0, colours that Rec. 709 does not hold, become 0.
+use super::{
+    Color,
+    observer::{RANGE, d65, rec709, xyz},
+};
+
+/// Values at wavelengths, straight lines between them, 0 outside (pbrt-v4's `PiecewiseLinearSpectrum`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled {
+    /// `(nm, value)`, wavelengths rising; not empty.
+    samples: Vec<(f32, f32)>,
+}
+
+/// The wavelength for which indices of refraction are tabulated as `n_d`: the yellow line of helium, in nm.
+pub const HELIUM_D: f64 = 587.6;
+
+impl Sampled {
+    /// From wavelength (nm) and value in turn.
+    ///
+    /// # Errors
+    /// What is wrong: an odd number of numbers or none, one that is not finite, wavelengths that do not rise.
+    pub fn new(interleaved: &[f32]) -> Result<Self, String> {
+        let (pairs, rest) = interleaved.as_chunks::<2>();
+        if pairs.is_empty() || !rest.is_empty() {
+            let count = interleaved.len();
+            return Err(format!(
+                "a spectrum has {count} numbers, expected pairs of wavelength (nm) and value"
+            ));
+        }
+        if let Some(bad) = interleaved.iter().find(|v| !v.is_finite()) {
+            return Err(format!("a spectrum holds {bad}, expected finite numbers"));
+        }
+        if let Some(w) = pairs.windows(2).find(|w| w[0][0] >= w[1][0]) {
+            return Err(format!(
+                "the wavelengths of a spectrum must rise, but {} nm follows {} nm",
+                w[1][0], w[0][0]
+            ));
+        }
+        Ok(Self { samples: pairs.iter().map(|p| (p[0], p[1])).collect() })
+    }
+
+    /// The value at a wavelength in nm; `None` outside.
+    fn inside(&self, nm: f64) -> Option<f64> {
+        let after = self.samples.partition_point(|s| f64::from(s.0) <= nm);
+        let (l0, v0) = *self.samples.get(after.checked_sub(1)?)?;
+        let (l0, v0) = (f64::from(l0), f64::from(v0));
+        let Some(&(l1, v1)) = self.samples.get(after) else { return (l0 == nm).then_some(v0) };
+        let u = (nm - l0) / (f64::from(l1) - l0);
+        Some(v0 * (1.0 - u) + f64::from(v1) * u)
+    }
+
+    /// The value at a wavelength in nm; the first or last one outside: for indices of refraction.
+    pub fn nearest(&self, nm: f64) -> f32 {
+        let ends = (self.samples[0], self.samples[self.samples.len() - 1]);
+        match self.inside(nm) {
+            Some(value) => value as f32,
+            None if nm < ends.0.0.into() => ends.0.1,
+            None => ends.1.1,
+        }
+    }
+
+    /// The colour of a share of light, under D65.
+    pub fn share(&self) -> Color {
+        let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
+        for nm in (RANGE.0..=RANGE.1).map(f64::from) {
+            let weights = rec709(xyz(nm)).map(|c| c * d65(nm));
+            let value = self.inside(nm).unwrap_or(0.0);
+            for i in 0..3 {
+                sum[i] += weights[i] * value;
+                white[i] += weights[i];
+            }
+        }
+        Color { rgb: std::array::from_fn(|i| (sum[i] / white[i]).max(0.0) as f32) }
+    }
+
+    /// The colour of a light, at luminance 1; black if it gives no visible light.
+    pub fn light(&self) -> Color {
+        light(|nm| self.inside(nm).unwrap_or(0.0))
+    }
+}
+
+/// The colour of a black body of `kelvin`, at luminance 1 (Planck's law); black at 0 K.
+pub fn blackbody(kelvin: f32) -> Color {
+    // h c / k, in nm K.
+    const C2: f64 = 1.438_776_877e7;
+    let t = f64::from(kelvin);
+    // Relative to 550 nm, so that neither cold nor hot bodies leave the range of numbers.
+    let planck = |nm: f64| {
+        let x = C2 / (nm * t);
+        (-5.0 * libm::log(nm / 550.0) - x + C2 / (550.0 * t)) - libm::log1p(-libm::exp(-x))
+    };
+    if kelvin > 0.0 { light(|nm| libm::exp(planck(nm))) } else { Color::BLACK }
+}
+
+/// The colour of CIE chromaticity `(x, y)`, at luminance 1.
+pub(super) fn chromatic(x: f64, y: f64) -> Color {
+    within([x / y, 1.0, (1.0 - x - y) / y])
+}
+
+/// The colour of a spectral power distribution, at luminance 1.
+fn light(power: impl Fn(f64) -> f64) -> Color {
+    let mut sum = [0.0; 3];
+    for nm in (RANGE.0..=RANGE.1).map(f64::from) {
+        let (cmf, power) = (xyz(nm), power(nm));
+        for i in 0..3 {
+            sum[i] += cmf[i] * power;
+        }
+    }
+    if sum[1] > 0.0 { within(sum.map(|v| v / sum[1])) } else { Color::BLACK }
+}
+
+fn within(xyz: [f64; 3]) -> Color {
+    let [r, g, b] = rec709(xyz).map(|v| v.max(0.0) as f32);
+    Color::new(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(c: Color, expected: [f32; 3], within: f32) {
+        assert!((0..3).all(|i| (c.rgb[i] - expected[i]).abs() < within), "{:?} {expected:?}", c.rgb);
+    }
+
+    #[test]
+    fn equal_shares_are_white_and_their_half_is_grey() {
+        let flat = |v: f32| Sampled::new(&[300.0, v, 900.0, v]).expect("a spectrum").share();
+        near(flat(1.0), [1.0; 3], 1e-6);
+        near(flat(0.25), [0.25; 3], 1e-6);
+    }
+
+    #[test]
+    fn spectra_are_linear_between_samples_and_zero_outside() {
+        let s = Sampled::new(&[400.0, 1.0, 500.0, 3.0, 700.0, 2.0]).expect("a spectrum");
+        assert_eq!([400.0, 450.0, 600.0, 700.0].map(|l| s.inside(l)), [1.0, 2.0, 2.5, 2.0].map(Some));
+        assert_eq!([399.0, 701.0].map(|l| s.inside(l)), [None; 2]);
+        assert_eq!([300.0, 600.0, 800.0].map(|l| s.nearest(l)), [1.0, 2.5, 2.0]);
+    }
+
+    #[test]
+    fn black_bodies_have_the_chromaticity_of_the_planckian_locus() {
+        // Wyszecki and Stiles, table 1(3.11): x, y of 2856 K (illuminant A) and 6500 K.
+        for (kelvin, x, y) in [(2856.0, 0.4476, 0.4074), (6500.0, 0.3135, 0.3237)] {
+            near(blackbody(kelvin), chromatic(x, y).rgb, 0.03);
+            assert!((blackbody(kelvin).luminance() - 1.0).abs() < 1e-3);
+        }
+        for kelvin in [1e-3, 10.0, 1e6, 1e30] {
+            assert!(blackbody(kelvin).rgb.iter().all(|v| v.is_finite() && *v >= 0.0), "{kelvin}");
+        }
+        assert_eq!(blackbody(0.0), Color::BLACK);
+    }
+
+    #[test]
+    fn daylight_is_white() {
+        let table: Vec<f32> =
+            (36..=78).flat_map(|l| [l as f32 * 10.0, d65(f64::from(l) * 10.0) as f32]).collect();
+        near(Sampled::new(&table).expect("a spectrum").light(), [1.0; 3], 0.02);
+        near(chromatic(0.312_727, 0.329_023), [1.0; 3], 1e-3);
+    }
+
+    #[test]
+    fn bad_spectra_are_refused() {
+        assert!(Sampled::new(&[]).is_err() && Sampled::new(&[400.0]).is_err());
+        assert!(Sampled::new(&[400.0, 1.0, 400.0, 2.0]).is_err_and(|m| m.contains("must rise")));
+        assert!(Sampled::new(&[400.0, f32::NAN]).is_err());
+    }
+}

@@ -1,0 +1,145 @@
+//! The description of triangle meshes, still or with moving vertices.
+//!
+//! Vertices move on straight lines between keys: `P` is where they are at the first moment, `P1`, `P2`, ... at the later
+//! ones; our addition to pbrt's language.
+use std::sync::Arc;
+
+use durer_core::math::{Normal3, Point2, Point3};
+use durer_scene::{Args, Kind, Mesh, MeshError, ParamDefault, ParamSpec, ParamType, Schema, VertexKey};
+
+use super::{ALPHA, Geometry};
+
+/// The word `trianglemesh`.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleMesh;
+
+const fn key(name: &'static str, doc: &'static str) -> ParamSpec {
+    ParamSpec::new(name, ParamType::Point3s, ParamDefault::Unset, doc).unit("m")
+}
+
+/// What [`ParamSpec::doc`] says of every key but the first.
+const NEXT: &str = "Where the vertices are at the next moment.";
+
+/// The parameters of the keys, in order.
+const KEYS: [ParamSpec; 9] = [
+    key("P1", "Where the vertices are at the second moment; they move on straight lines."),
+    key("P2", NEXT),
+    key("P3", NEXT),
+    key("P4", NEXT),
+    key("P5", NEXT),
+    key("P6", NEXT),
+    key("P7", NEXT),
+    key("P8", NEXT),
+    key("P9", NEXT),
+];
+
+impl Kind for TriangleMesh {
+    type Output = Geometry;
+    const SCHEMA: Schema = Schema {
+        name: "trianglemesh",
+        aliases: &[],
+        doc: "Triangles. The outside is where vertices are seen counter-clockwise, unless vertex normals say otherwise.",
+        params: &[
+            ParamSpec::new("P", ParamType::Point3s, ParamDefault::Required, "Vertices.").unit("m"),
+            ParamSpec::new(
+                "indices",
+                ParamType::Ints,
+                ParamDefault::Unset,
+                "Three vertices per triangle, counted from 0; may be left out if there are just three vertices.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new("N", ParamType::Normals, ParamDefault::Unset, "Shading normal of each vertex."),
+            ParamSpec::new("S", ParamType::Vector3s, ParamDefault::Unset, "Shading tangent of each vertex."),
+            ParamSpec::new("uv", ParamType::Point2s, ParamDefault::Unset, "Texture coordinates of each vertex."),
+            KEYS[0],
+            KEYS[1],
+            KEYS[2],
+            KEYS[3],
+            KEYS[4],
+            KEYS[5],
+            KEYS[6],
+            KEYS[7],
+            KEYS[8],
+            ParamSpec::new(
+                "times",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "The moments of P, P1, ..., rising; default: from 0 to 1 in equal steps.",
+            )
+            .unit("s"),
+            ParamSpec::new("faceIndices", ParamType::Ints, ParamDefault::Unset, "Numbers for other programs; no effect."),
+            ALPHA,
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Geometry> {
+        if !args.is_sound() {
+            return None;
+        }
+        let positions = points(args, "P");
+        let indices = args.ints("indices");
+        let (triples, rest) = indices.as_chunks::<3>();
+        if !rest.is_empty() {
+            let message = format!("\"indices\" has {} values, expected a multiple of 3", indices.len());
+            args.error("indices", message);
+        }
+        let mut triangles: Vec<[u32; 3]> = triples.iter().map(|t| t.map(|i| i.max(0) as u32)).collect();
+        if !args.is_set("indices") {
+            triangles.push([0, 1, 2]);
+            if positions.len() != 3 {
+                let message =
+                    format!("trianglemesh needs \"integer indices\" for {} vertices", positions.len());
+                args.error("indices", message);
+            }
+        }
+        let normals = args.triples("N").into_iter().map(Normal3::from).collect();
+        let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
+        let tangents = args.triples("S").into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        let (time, later) = keys(args);
+        let mesh =
+            Mesh { positions, indices: triangles, normals, uvs, tangents, time, later, ..Mesh::default() };
+        if args.is_sound()
+            && let Err(error) = mesh.validate()
+        {
+            let wrong = |k: &VertexKey| k.positions.len() != mesh.positions.len();
+            let name = match error {
+                MeshError::Index { .. } => "indices",
+                MeshError::Length { attribute: "normals", .. } => "N",
+                MeshError::Length { attribute: "tangents", .. } => "S",
+                MeshError::Length { attribute: "vertex key", .. } => {
+                    mesh.later.iter().position(wrong).and_then(|key| KEYS.get(key)).map_or("P", |k| k.name)
+                }
+                MeshError::Length { .. } => "uv",
+                MeshError::Time { .. } => "times",
+                MeshError::NotFinite { .. } => "P",
+            };
+            args.error(name, error.to_string());
+        }
+        args.is_sound().then(|| Geometry::Mesh(Arc::new(mesh)))
+    }
+}
+
+fn points(args: &Args<'_>, name: &str) -> Vec<Point3> {
+    args.triples(name).into_iter().map(Point3::from).collect()
+}
+
+/// The moment of `P` and the keys after it; complains about gaps between them and moments that do not fit.
+fn keys(args: &mut Args<'_>) -> (f32, Vec<VertexKey>) {
+    let given = KEYS.iter().take_while(|k| args.is_set(k.name)).count();
+    if let Some(stray) = KEYS.iter().skip(given).find(|k| args.is_set(k.name)) {
+        let missing = KEYS[given].name;
+        args.error(stray.name, format!("\"{}\" is given, but not \"{missing}\" before it", stray.name));
+    }
+    let times: Vec<f32> = match args.floats("times") {
+        [] => (0..=given).map(|key| key as f32 / given.max(1) as f32).collect(),
+        times => times.to_vec(),
+    };
+    if times.len() != given + 1 {
+        let message =
+            format!("\"times\" has {} moments, but there are {} of P, P1, ...", times.len(), given + 1);
+        args.error("times", message);
+        return (0.0, Vec::new());
+    }
+    let moments = KEYS.iter().zip(times.iter().skip(1));
+    let later = moments.map(|(key, &time)| VertexKey { time, positions: points(args, key.name) }).collect();
+    (times[0], later)
+}
