@@ -99,6 +99,7 @@ pub fn compile(
         return None;
     }
     let has_holes = materials.iter().any(|m| m.has_holes());
+    let has_backs = materials.iter().any(|m| m.is_one_sided());
     let (lights, light_names) = lights.into_iter().unzip();
     Some(Scene {
         objects: placed.objects,
@@ -113,6 +114,7 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         has_holes,
+        has_backs,
     })
 }
 
