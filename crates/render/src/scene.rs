@@ -159,7 +159,8 @@ impl UserGeometry for Holed<'_> {
     }
     fn accepts(&self, hit: &Hit) -> bool {
         let Self { cx, ray, culls } = *self;
-        !(culls && cx.scene.is_hidden_back(ray, hit)) && !cx.scene.is_hole(cx, ray, hit)
+        let is_absent = culls && cx.scene.is_hidden_back(ray, hit) || cx.scene.is_hole(cx, ray, hit);
+        !is_absent
     }
 }
 

@@ -93,17 +93,14 @@ fn strided<'b, 'a>(
     }
     let reach =
         count.saturating_sub(1).checked_mul(stride).and_then(|b| b.checked_add(size)?.checked_add(start));
-    match (reach, view.bytes.get(start..)) {
-        (Some(reach), Some(bytes)) if reach <= view.bytes.len() => Ok(Strided { bytes, stride }),
-        _ => {
-            let (have, at) = (view.bytes.len(), view.element.pointer());
-            let message = format!(
-                "{count} elements of {stride} bytes from byte {start} do not fit {at}, \
-                                   which has {have} bytes"
-            );
-            Err(from.fault(message))
-        }
+    if reach.is_none_or(|reach| reach > view.length) {
+        let (have, at) = (view.length, view.element.pointer());
+        let message = format!(
+            "{count} elements of {stride} bytes from byte {start} do not fit {at}, which has {have} bytes"
+        );
+        return Err(from.fault(message));
     }
+    Ok(Strided { bytes: view.bytes?.get(start..).unwrap_or_default(), stride })
 }
 
 impl<'b, 'a> Accessor<'b, 'a> {
@@ -116,7 +113,11 @@ impl<'b, 'a> Accessor<'b, 'a> {
         Self::at(document, buffers, document.item("accessors", reference)?)
     }
     /// The accessor `element`.
-    pub(super) fn at(document: &Document<'a>, buffers: &'b Buffers<'a>, element: Element<'a>) -> Checked<Self> {
+    pub(super) fn at(
+        document: &Document<'a>,
+        buffers: &'b Buffers<'a>,
+        element: Element<'a>,
+    ) -> Checked<Self> {
         let component = Component::parse(&element.required("componentType")?)?;
         let shape = element.required("type")?;
         let (columns, rows) = match shape.text()? {
@@ -190,7 +191,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
         }
     }
     /// The same numbers, read as fractions of 1 if they are integers.
-    pub(super) fn as_fractions(self) -> Self {
+    pub(super) fn into_fractions(self) -> Self {
         Self { normalized: true, ..self }
     }
     /// True if these are integers that stand for themselves.

@@ -74,8 +74,10 @@ pub(super) struct Buffers<'a> {
 /// A stretch of a buffer.
 #[derive(Clone)]
 pub(super) struct View<'b, 'a> {
-    /// The stretch.
-    pub(super) bytes: &'b [u8],
+    /// The stretch, or why it is not there.
+    pub(super) bytes: Checked<&'b [u8]>,
+    /// How long it is, there or not.
+    pub(super) length: usize,
     /// Bytes from one element to the next, if the file says so.
     pub(super) stride: Option<usize>,
     /// Where it is described.
@@ -90,14 +92,14 @@ impl<'a> Buffers<'a> {
         let loaded: Vec<_> = buffers.map(load).collect();
         Ok(Self { list: loaded.into_iter().collect::<Checked<_>>()? })
     }
-    /// Checks the ranges of all buffer views and accessors whose bytes are there, used or not.
+    /// Checks the ranges of all buffer views and accessors, used or not. That bytes are not there does not matter yet.
     pub(super) fn check(&self, document: &Document<'a>) -> Checked<()> {
-        let is_there = |fault: &Fault| !self.list.iter().flat_map(|b| b.as_ref().err()).any(|f| f == fault);
+        let matters = |fault: &Fault| !self.list.iter().flat_map(|b| b.as_ref().err()).any(|f| f == fault);
         for view in document.root.list("bufferViews")? {
-            document.keep_if(self.view_at(document, view), is_there);
+            document.keep_if(self.view_at(document, view), matters);
         }
         for accessor in document.root.list("accessors")? {
-            document.keep_if(Accessor::at(document, self, accessor), is_there);
+            document.keep_if(Accessor::at(document, self, accessor), matters);
         }
         Ok(())
     }
@@ -124,20 +126,25 @@ impl<'a> Buffers<'a> {
     }
     fn view_at<'b>(&'b self, document: &Document<'a>, element: Element<'a>) -> Checked<View<'b, 'a>> {
         let buffer = element.required("buffer")?;
-        document.item("buffers", &buffer)?;
+        let described = document.item("buffers", &buffer)?;
         let bytes = match self.list.get(buffer.index()?) {
-            Some(Ok(bytes)) => bytes.as_slice(),
-            Some(Err(fault)) => return Err(fault.clone()),
-            None => &[],
+            Some(Ok(bytes)) => Ok(bytes.as_slice()),
+            Some(Err(fault)) => Err(fault.clone()),
+            None => Ok(&[][..]),
+        };
+        let whole = match &bytes {
+            Ok(bytes) => bytes.len(),
+            Err(_) => described.required("byteLength")?.index()?,
         };
         let start = element.index_or("byteOffset", 0)?;
         let size = element.required("byteLength")?.index()?;
-        let view = bytes.get(start..).and_then(|rest| rest.get(..size)).ok_or_else(|| {
-            let reach = start.saturating_add(size);
-            element.fault(format!("reaches to byte {reach}, but the buffer has {}", bytes.len()))
-        })?;
+        let reach = start.saturating_add(size);
+        if reach > whole {
+            return Err(element.fault(format!("reaches to byte {reach}, but the buffer has {whole}")));
+        }
         let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
-        Ok(View { bytes: view, stride, element })
+        let bytes = bytes.map(|bytes| bytes.get(start..reach).unwrap_or_default());
+        Ok(View { bytes, length: size, stride, element })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parsed file: references between its lists, complaints, and the budget of what it may unpack to.
 use std::{
-    cell::RefCell,
+    cell::{Cell, RefCell},
     collections::BTreeSet,
     sync::{
         Arc,
@@ -19,14 +19,15 @@ pub(super) struct Document<'a> {
     file: Arc<str>,
     complaints: RefCell<Diagnostics>,
     said: RefCell<BTreeSet<String>>,
+    errors: Cell<usize>,
     budget: Arc<AtomicU64>,
 }
 
 impl<'a> Document<'a> {
     /// The document `root` of `file`.
     pub(super) fn new(root: Element<'a>, file: &str) -> Self {
-        let (complaints, said) = (RefCell::default(), RefCell::default());
-        Self { root, file: file.into(), complaints, said, budget: Arc::default() }
+        let (complaints, said, errors) = (RefCell::default(), RefCell::default(), Cell::new(0));
+        Self { root, file: file.into(), complaints, said, errors, budget: Arc::default() }
     }
     /// The same document with complaints of its own, for work on another thread; the budget stays shared.
     pub(super) fn apart(&self) -> Self {
@@ -56,7 +57,7 @@ impl<'a> Document<'a> {
         if let Some(item) = self.root.list_item(list, index)? {
             return Ok(item);
         }
-        let count = self.root.list(list)?.len();
+        let count = self.root.get(list)?.map_or(Ok(0), |list| list.items().map(|items| items.len()))?;
         Err(reference.fault(format!("refers to /{list}/{index}, but there are only {count} {list}")))
     }
     /// [`Self::item`] for the optional member `key` of `from`.
@@ -73,7 +74,7 @@ impl<'a> Document<'a> {
             return;
         }
         let mut complaints = self.complaints.borrow_mut();
-        if complaints.is_full() {
+        if self.errors.replace(self.errors.get().saturating_add(1)) >= Diagnostics::MOST_ERRORS {
             return;
         }
         let diagnostic = complaints.error(self.location(&fault.pointer), fault.message);
@@ -106,7 +107,7 @@ impl<'a> Document<'a> {
     }
     /// True if an error was found.
     pub(super) fn has_errors(&self) -> bool {
-        self.complaints.borrow().has_errors()
+        self.errors.get() > 0
     }
     /// All complaints.
     pub(super) fn into_complaints(self) -> Diagnostics {

@@ -100,7 +100,8 @@ fn sets<'a>(document: &Document<'a>, material: &Element<'a>) -> Checked<[usize; 
     let mut others = used.into_iter().filter(|set| *set != first);
     let second = others.next().unwrap_or(usize::from(first == 0));
     if let Some(set) = others.next() {
-        let message = format!("a material with more than two sets of texture coordinates: TEXCOORD_{set} is not read");
+        let message =
+            format!("a material with more than two sets of texture coordinates: TEXCOORD_{set} is not read");
         document.warn(material, message);
     }
     Ok([first, second])
@@ -228,7 +229,8 @@ impl<'a> Builder<'_, '_, 'a> {
         }
         self.color("emission", material.get("emissiveTexture")?, factor)?;
         if let Some(extension) = material.extension("KHR_materials_emissive_strength")? {
-            let strength = self.ranged(Some(&extension), "emissiveStrength", 1.0, [0.0, f64::from(f32::MAX)])?;
+            let strength =
+                self.ranged(Some(&extension), "emissiveStrength", 1.0, [0.0, f64::from(f32::MAX)])?;
             self.put(|p| p.float("emissionstrength", strength as f32));
         }
         Ok(())

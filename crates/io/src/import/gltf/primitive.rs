@@ -99,7 +99,11 @@ impl<'r, 'a> Columns<'r, 'a> {
         Err(accessor.element.fault(message))
     }
     /// The elements that the triangles use; none if they hold infinities: a renderer could do nothing with them.
-    pub(super) fn rows<const N: usize>(&self, name: &str, accessor: &Accessor<'r, 'a>) -> Checked<Vec<[f32; N]>> {
+    pub(super) fn rows<const N: usize>(
+        &self,
+        name: &str,
+        accessor: &Accessor<'r, 'a>,
+    ) -> Checked<Vec<[f32; N]>> {
         let rows = accessor.floats::<N>(self.document, self.which)?;
         if rows.iter().flatten().all(|v| v.is_finite()) {
             return Ok(rows);
@@ -120,7 +124,7 @@ impl<'r, 'a> Columns<'r, 'a> {
         };
         if accessor.holds_integers() {
             self.document.warn(&accessor.element, "integer colours are taken for fractions of 1");
-            accessor = accessor.as_fractions();
+            accessor = accessor.into_fractions();
         }
         if accessor.lanes == 3 {
             let rows = self.rows(NAME, &accessor)?;
@@ -173,12 +177,13 @@ impl<'r, 'a> Columns<'r, 'a> {
             };
             let element = joints.element.clone();
             let joints = joints.indices::<4>(self.document, self.which)?;
-            let weights = if weights.holds_integers() { weights.as_fractions() } else { weights };
+            let weights = if weights.holds_integers() { weights.into_fractions() } else { weights };
             let weights = self.rows::<4>(weights_name, &weights)?;
             let set: Vec<Influences> = joints.iter().zip(&weights).map(|(j, w)| zip(*j, *w)).collect();
             let missing = |(joint, weight): &&(u32, f32)| *weight != 0.0 && *joint as usize >= skin.len();
             if let Some((joint, _)) = set.iter().flatten().find(missing) {
-                let message = format!("a vertex follows joint {joint}, but the skin has {} joints", skin.len());
+                let message =
+                    format!("a vertex follows joint {joint}, but the skin has {} joints", skin.len());
                 return Err(element.fault(message));
             }
             sets.push(set);

@@ -125,7 +125,8 @@ fn binds<'a>(
     }
     let rows: Vec<[f64; 16]> = rows.into_iter().map(|m| m.map(f64::from)).collect();
     if !rows.iter().all(is_affine) {
-        document.warn(&accessor.element, "the last row of an inverse bind matrix is not 0 0 0 1; it is ignored");
+        document
+            .warn(&accessor.element, "the last row of an inverse bind matrix is not 0 0 0 1; it is ignored");
     }
     Ok(rows.into_iter().map(matrix).collect())
 }

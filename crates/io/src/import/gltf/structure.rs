@@ -28,13 +28,8 @@ enum Is {
 
 use Is::{Each, Flag, List, Number, Numbers, Part, Parts, Ref, Refs, Text, Whole};
 
-const TEXTURE: &[(&str, Is)] = &[
-    ("index", Ref("textures")),
-    ("texCoord", Whole),
-    ("scale", Number),
-    ("strength", Number),
-    EXTENSIONS,
-];
+const TEXTURE: &[(&str, Is)] =
+    &[("index", Ref("textures")), ("texCoord", Whole), ("scale", Number), ("strength", Number), EXTENSIONS];
 const EXTENSIONS: (&str, Is) = ("extensions", Each(&Part(&[])));
 const ATTRIBUTES: Is = Each(&Ref("accessors"));
 const SAMPLER: &[(&str, Is)] =

@@ -108,7 +108,7 @@ impl<'b, 'a> Textures<'b, 'a> {
             },
             None => {
                 let view = self.buffers.view(self.document, &image.required("bufferView")?)?;
-                self.assets.insert(embedded.clone(), view.bytes);
+                self.assets.insert(embedded.clone(), view.bytes?);
                 embedded
             }
         };
