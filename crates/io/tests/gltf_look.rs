@@ -231,6 +231,16 @@ fn unlit_materials_keep_their_colour_and_lose_all_else() {
 }
 
 #[test]
+fn a_thousand_warnings_do_not_print_a_book() {
+    let wild = |i: usize| json!({"pbrMetallicRoughness": {"roughnessFactor": 2 + i}});
+    let imported =
+        import_well(json!({"nodes": [{}], "materials": (0..1000).map(wild).collect::<Vec<_>>()}), &[]);
+    let said: Vec<&str> = imported.diagnostics.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(said.len(), 51);
+    assert!(said[50].contains("left out") && said[49].contains("roughnessFactor 51"), "{said:?}");
+}
+
+#[test]
 fn faults_of_looks_point_at_their_cause() {
     let material = |m: Value| with_images(json!({"materials": [m]}));
     for (d, pointer, text) in [

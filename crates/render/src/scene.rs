@@ -159,8 +159,13 @@ impl UserGeometry for Holed<'_> {
     }
     fn accepts(&self, hit: &Hit) -> bool {
         let Self { cx, ray, culls } = *self;
-        let is_absent = culls && cx.scene.is_hidden_back(ray, hit) || cx.scene.is_hole(cx, ray, hit);
-        !is_absent
+        let (object, prim) = cx.scene.resolve(hit);
+        let material = cx.scene.material(object);
+        let is_hidden = culls && material.is_one_sided() && cx.scene.is_back(ray, hit, object, prim);
+        let is_hole = || {
+            material.has_holes() && material.is_hole(&cx.shade(), &cx.scene.surface(ray, hit).1.texture_at())
+        };
+        !is_hidden && !is_hole()
     }
 }
 
@@ -187,13 +192,9 @@ impl Scene {
         self.accel.closest(ray, &holed, &mut NoProbe, ()).map(|hit| self.resolve(&hit).0)
     }
 
-    /// True if the ray met the back of something that is not seen from there. The winding of triangles decides, as it
-    /// does for rasterisers, whatever the vertex normals say.
-    fn is_hidden_back(&self, ray: &Ray, hit: &Hit) -> bool {
-        let (object, prim) = self.resolve(hit);
-        if !self.material(object).is_one_sided() {
-            return false;
-        }
+    /// True if the ray met something from behind. The winding of triangles decides, as it does for rasterisers,
+    /// whatever the vertex normals say.
+    fn is_back(&self, ray: &Ray, hit: &Hit, object: Id<Object>, prim: u32) -> bool {
         let (mesh, d) = match &self.targets[hit.instance as usize] {
             Target::Merged => (&self.merged_at(hit.prim).mesh, ray.d),
             Target::Mesh(_, mesh) => {
@@ -205,11 +206,6 @@ impl Scene {
         let [a, b, c] = mesh.corners(mesh.indices[prim as usize].map(|i| i as usize), ray.time);
         let front = (b - a).cross(c - a).dot(d) <= 0.0;
         front == self.object(object).reverse_orientation
-    }
-
-    fn is_hole(&self, cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> bool {
-        let material = self.material(self.resolve(hit).0);
-        material.has_holes() && material.is_hole(&cx.shade(), &self.surface(ray, hit).1.texture_at())
     }
 
     /// The object of a hit, and the hit triangle's number within its mesh.

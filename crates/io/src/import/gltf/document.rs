@@ -20,14 +20,16 @@ pub(super) struct Document<'a> {
     complaints: RefCell<Diagnostics>,
     said: RefCell<BTreeSet<String>>,
     errors: Cell<usize>,
+    warnings: Cell<usize>,
     budget: Arc<AtomicU64>,
 }
 
 impl<'a> Document<'a> {
     /// The document `root` of `file`.
     pub(super) fn new(root: Element<'a>, file: &str) -> Self {
-        let (complaints, said, errors) = (RefCell::default(), RefCell::default(), Cell::new(0));
-        Self { root, file: file.into(), complaints, said, errors, budget: Arc::default() }
+        let (complaints, said) = (RefCell::default(), RefCell::default());
+        let (errors, warnings) = (Cell::new(0), Cell::new(0));
+        Self { root, file: file.into(), complaints, said, errors, warnings, budget: Arc::default() }
     }
     /// The same document with complaints of its own, for work on another thread; the budget stays shared.
     pub(super) fn apart(&self) -> Self {
@@ -97,9 +99,16 @@ impl<'a> Document<'a> {
         self.warn_at(at.pointer(), message.into());
     }
     fn warn_at(&self, pointer: &str, message: String) {
-        if self.said.borrow_mut().insert(message.clone()) {
-            self.complaints.borrow_mut().warning(self.location(pointer), message);
+        if !self.said.borrow_mut().insert(message.clone()) {
+            return;
         }
+        let before = self.warnings.replace(self.warnings.get().saturating_add(1));
+        let message = match before.cmp(&Diagnostics::MOST_ERRORS) {
+            std::cmp::Ordering::Less => message,
+            std::cmp::Ordering::Equal => "from here on warnings are left out: there are too many".to_owned(),
+            std::cmp::Ordering::Greater => return,
+        };
+        self.complaints.borrow_mut().warning(self.location(pointer), message);
     }
     /// Adds a note.
     pub(super) fn note(&self, at: &Element<'_>, message: impl Into<String>) {
