@@ -130,8 +130,15 @@ fn mutilated_files_never_panic() {
         ((state >> 33) as usize) % below
     };
     let place = tempfile::tempdir().expect("temporary folder");
-    for name in ["Box-Embedded.gltf", "BoxInterleaved.glb", "SimpleSparseAccessor/SimpleSparseAccessor.gltf"]
-    {
+    for name in [
+        "Box-Embedded.gltf",
+        "BoxInterleaved.glb",
+        "SimpleSparseAccessor/SimpleSparseAccessor.gltf",
+        "SimpleSkin/SimpleSkin.gltf",
+        "SimpleInstancing.glb",
+        "AnimatedMorphCube.glb",
+        "TextureTransformTest/TextureTransformTest.gltf",
+    ] {
         let original = std::fs::read(shared.join(name)).expect("file of the corpus");
         let copy = place.path().join(Path::new(name).file_name().expect("name"));
         for _ in 0..400 {

@@ -2,8 +2,8 @@
 mod gltf_document;
 
 use durer_core::glam::DVec3;
-use durer_scene::{Assets, Node, Severity};
-use gltf_document::{first, import, import_well, numbers, word};
+use durer_scene::{Assets, Data, Node, Severity, ShapeSource};
+use gltf_document::{first, floats, import, import_well, numbers, word};
 use serde_json::{Value, json};
 
 fn with_images(mut d: Value) -> Value {
@@ -86,15 +86,76 @@ fn texture_transforms_become_a_matrix_for_v_upwards() {
     let d = with_images(json!({"materials": [
         {"pbrMetallicRoughness": {"baseColorTexture": info(json!({"offset": [0.25, 0.5]}))}},
         {"pbrMetallicRoughness": {"baseColorTexture": info(json!({"scale": [1, 1]}))}},
-        {"pbrMetallicRoughness": {"baseColorTexture": info(json!({"texCoord": 1}))}},
     ]}));
     let imported = import_well(d, &[]);
-    let [moved, plain] = &imported.desc.textures[..] else { panic!("equal textures are one") };
+    let [moved, plain] = &imported.desc.textures[..] else { panic!("two textures") };
     assert_eq!(numbers(&moved.node, "uvmatrix"), [1.0, 0.0, 0.25, 0.0, 1.0, -0.5]);
-    assert!(plain.node.params.get("uvmatrix").is_none());
-    let (pointer, message) = first(&imported, Severity::Warning);
-    assert_eq!(pointer, "/materials/2/pbrMetallicRoughness/baseColorTexture");
-    assert!(message.contains("TEXCOORD_1"));
+    assert!(plain.node.params.get("uvmatrix").is_none() && plain.node.params.get("uvset").is_none());
+}
+
+#[test]
+fn textures_pick_their_coordinates_and_those_of_the_normal_map_come_first() {
+    let uv = |offset: u32| json!({"bufferView": 0, "byteOffset": offset, "componentType": 5126, "type": "VEC2", "count": 3});
+    let moved = json!({"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform":
+        {"texCoord": 3, "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 2]}}});
+    let mut d = with_images(json!({"materials": [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": moved},
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}},
+    ]}));
+    let attributes = json!({"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 2, "TEXCOORD_3": 3});
+    let mut with_tangents = attributes.clone();
+    with_tangents["NORMAL"] = json!(0);
+    with_tangents["TANGENT"] = json!(4);
+    d["meshes"] = json!([{"primitives": [{"attributes": attributes, "material": 0},
+        {"attributes": attributes, "material": 1}, {"attributes": with_tangents, "material": 0}]}]);
+    d["nodes"] = json!([{"mesh": 0}]);
+    let vec = |kind: &str| json!({"bufferView": 0, "componentType": 5126, "type": kind, "count": 3});
+    d["accessors"] = json!([vec("VEC3"), uv(0), uv(4), uv(8), vec("VEC4")]);
+    d["bufferViews"] = json!([{"buffer": 0, "byteLength": 48}]);
+    let values: Vec<f32> = (0..12).map(|i| i as f32).collect();
+    let desc = import_well(d, &floats(&values)).desc;
+    let set = |of: &Node, name: &str| {
+        let name = word(of, name);
+        let texture = desc.textures.iter().find(|t| t.name == name).expect("a texture");
+        match texture.node.params.get("uvset").map(|p| &p.data) {
+            None => 0,
+            Some(Data::Ints(v)) => v[0],
+            other => panic!("{other:?}"),
+        }
+    };
+    let material = |shape: usize| &desc.materials[desc.shapes[shape].material.expect("one").index()].node;
+    let mesh = |shape: usize| match desc.shapes[shape].source {
+        ShapeSource::Mesh(id) => &desc.meshes[id.index()],
+        ShapeSource::Node(_) => panic!("a mesh"),
+    };
+    // The normal map's TEXCOORD_3 comes first, the base colour's TEXCOORD_0 second.
+    assert_eq!((set(material(0), "normal"), set(material(0), "basecolor")), (0, 1));
+    assert_eq!((mesh(0).uvs[0].x, mesh(0).second_uvs[0].x), (2.0, 0.0));
+    assert_eq!(set(material(1), "basecolor"), 0);
+    assert_eq!((mesh(1).uvs[0].x, mesh(1).second_uvs[0].x), (1.0, 0.0));
+    // A quarter turn and a scale of 2, for v upwards; tangents of the file stay as they are.
+    assert_eq!(numbers(material(0), "normaluv"), [0.0, -2.0, 2.0, 0.0]);
+    assert!(material(2).params.get("normaluv").is_none());
+    assert_eq!(word(material(2), "normal"), word(material(0), "normal"));
+}
+
+#[test]
+fn a_third_set_of_coordinates_is_warned_about() {
+    let d = with_images(
+        json!({"materials": [{"emissiveTexture": {"index": 0, "texCoord": 2}, "emissiveFactor": [1, 1, 1],
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1, "texCoord": 1}}}]}),
+    );
+    let (pointer, message) = first(&import_well(d, &[]), Severity::Warning);
+    assert!(pointer == "/materials/0" && message.contains("TEXCOORD_2"), "{pointer}: {message}");
+}
+
+#[test]
+fn single_sided_materials_hide_their_backs_unless_light_passes_them() {
+    let d = json!({"nodes": [{}], "materials": [{}, {"doubleSided": true},
+        {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}]});
+    let desc = import_well(d, &[]).desc;
+    let hides = |i: usize| desc.materials[i].node.params.get("onesided").is_some();
+    assert!(hides(0) && !hides(1) && !hides(2));
 }
 
 #[test]
@@ -158,13 +219,25 @@ fn punctual_lights_shine_along_minus_z() {
 }
 
 #[test]
-fn unlit_materials_emit_with_a_warning() {
-    let d = json!({"nodes": [{}], "materials": [{"extensions": {"KHR_materials_unlit": {}},
-        "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1]}}]});
+fn unlit_materials_keep_their_colour_and_lose_all_else() {
+    let d = json!({"nodes": [{}], "materials": [{"extensions": {"KHR_materials_unlit": {}}, "emissiveFactor": [1, 1, 1],
+        "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 0.25]}}]});
     let imported = import_well(d, &[]);
     let m = &imported.desc.materials[0].node;
-    assert_eq!((numbers(m, "emission"), numbers(m, "basecolor")), (vec![1.0, 0.5, 0.0], vec![0.0; 3]));
-    assert!(first(&imported, Severity::Warning).1.contains("unlit"));
+    assert!(matches!(m.params.get("unlit").map(|p| &p.data), Some(Data::Bools(v)) if v[..] == [true]));
+    assert_eq!((numbers(m, "basecolor"), numbers(m, "alpha")), (vec![1.0, 0.5, 0.0], vec![0.25]));
+    assert!(m.params.get("emission").is_none() && m.params.get("metallic").is_none());
+    assert!(imported.diagnostics.is_empty(), "{:?}", imported.diagnostics);
+}
+
+#[test]
+fn a_thousand_warnings_do_not_print_a_book() {
+    let wild = |i: usize| json!({"pbrMetallicRoughness": {"roughnessFactor": 2 + i}});
+    let imported =
+        import_well(json!({"nodes": [{}], "materials": (0..1000).map(wild).collect::<Vec<_>>()}), &[]);
+    let said: Vec<&str> = imported.diagnostics.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(said.len(), 51);
+    assert!(said[50].contains("left out") && said[49].contains("roughnessFactor 51"), "{said:?}");
 }
 
 #[test]

@@ -45,18 +45,18 @@ fn strips_turn_every_second_triangle_and_fans_keep_their_hub() {
 }
 
 #[test]
-fn lines_and_points_are_skipped_with_one_warning() {
+fn lines_and_points_are_skipped_with_one_warning_each() {
     let mut d = document(json!({"attributes": {"POSITION": 0}, "mode": 1}));
     let primitive = d["meshes"][0]["primitives"][0].clone();
     d["meshes"][0]["primitives"] = json!([primitive, primitive, {"attributes": {"POSITION": 0}, "mode": 0}]);
     let imported = import_well(d, &zigzag());
     assert!(imported.desc.shapes.is_empty());
-    assert_eq!(imported.diagnostics.iter().count(), 1);
-    let (pointer, message) = first(&imported, Severity::Warning);
+    let said: Vec<_> = imported.diagnostics.iter().map(|d| d.message.as_str()).collect();
     assert_eq!(
-        (pointer.as_str(), message.as_str()),
-        ("/meshes/0/primitives/0", "points and lines are not drawn")
+        said,
+        ["lines are not drawn: they have no surface", "points are not drawn: they have no surface"]
     );
+    assert_eq!(first(&imported, Severity::Warning).0, "/meshes/0/primitives/0");
 }
 
 #[test]
@@ -147,14 +147,62 @@ fn nodes_share_meshes_and_compose_transforms_in_double_precision() {
 }
 
 #[test]
-fn cycles_and_shared_children_are_refused() {
-    for nodes in [json!([{"children": [1]}, {"children": [0]}]), json!([{"children": [1, 1]}, {}])] {
-        let (pointer, message) = first(&import(json!({"nodes": nodes}), &[]), Severity::Error);
-        assert!(pointer.starts_with("/nodes/") && message.contains("without cycles"), "{pointer} {message}");
+fn cycles_and_second_parents_are_refused_whether_or_not_a_scene_draws_them() {
+    for (nodes, pointer, text) in [
+        (json!([{"children": [1]}, {"children": [0]}]), "/nodes/0/children", "without cycles"),
+        (json!([{"children": [0]}]), "/nodes/0/children", "without cycles"),
+        (json!([{}, {"children": [2]}, {"children": [1]}]), "/nodes/1/children", "without cycles"),
+        (json!([{"children": [1, 1]}, {}]), "/nodes/0/children/1", "already a child of /nodes/0"),
+        (
+            json!([{"children": [2]}, {"children": [2]}, {}]),
+            "/nodes/1/children/0",
+            "already a child of /nodes/0",
+        ),
+        (json!([{"children": [7]}]), "/nodes/0/children", "only 1 nodes"),
+    ] {
+        let found = first(&import(json!({"nodes": nodes}), &[]), Severity::Error);
+        assert!(found.0.starts_with(pointer) && found.1.contains(text), "{found:?}");
     }
-    let chain: Vec<Value> = (0..300).map(|i| json!({"children": [i + 1]})).chain([json!({})]).collect();
-    let (_, message) = first(&import(json!({"nodes": chain}), &[]), Severity::Error);
-    assert!(message.contains("deeper than 256"), "{message}");
+}
+
+#[test]
+fn a_scene_that_names_a_node_below_another_draws_it_once_and_in_its_place() {
+    let mut d = document(json!({"attributes": {"POSITION": 0}, "mode": 5}));
+    d["nodes"] = json!([{"translation": [1, 0, 0], "children": [1]}, {"mesh": 0}]);
+    d["scenes"] = json!([{"nodes": [1, 0]}]);
+    let desc = import_well(d, &zigzag()).desc;
+    let [shape] = &desc.shapes[..] else { panic!("one shape") };
+    assert_eq!(shape.world_from_object.at(0.0).translation, DVec3::X);
+}
+
+#[test]
+fn one_of_several_scenes_is_drawn_and_said() {
+    let mut d = document(json!({"attributes": {"POSITION": 0}, "mode": 5}));
+    d["nodes"] = json!([{"name": "a", "mesh": 0}, {"name": "b", "mesh": 0}]);
+    d["scenes"] = json!([{"nodes": [0]}, {"nodes": [1]}]);
+    d["scene"] = json!(1);
+    let imported = import_well(d, &zigzag());
+    assert_eq!(imported.desc.shapes[0].name, "b");
+    let (pointer, message) = first(&imported, Severity::Note);
+    assert_eq!(
+        (pointer.as_str(), message.as_str()),
+        ("/scenes/1", "the file holds 2 scenes; scene 1 is drawn")
+    );
+}
+
+#[test]
+fn buffers_that_are_missing_matter_to_those_who_use_them() {
+    let mut d = document(json!({"attributes": {"POSITION": 0}, "mode": 5}));
+    d["bufferViews"][1]["buffer"] = json!(1);
+    let buffers = json!([{"byteLength": 65}, {"byteLength": 65, "uri": "gone.bin"}]);
+    let read = |d: &Value| gltf_document::import_buffers(d.clone(), &zigzag(), buffers.clone());
+    let imported = read(&d);
+    assert!(!imported.diagnostics.has_errors() && imported.desc.shapes.len() == 1);
+    let (pointer, message) = first(&imported, Severity::Warning);
+    assert!(pointer == "/buffers/1" && message.contains("gone.bin") && message.contains("nothing uses"));
+    d["meshes"][0]["primitives"][0]["indices"] = json!(1);
+    let (pointer, message) = first(&read(&d), Severity::Error);
+    assert!(pointer == "/buffers/1/uri" && message.contains("gone.bin"), "{pointer}: {message}");
 }
 
 #[test]
@@ -179,7 +227,8 @@ fn faults_point_at_their_cause() {
         ("/accessors/0/bufferView", json!(9), "/accessors/0/bufferView", "there are only 2 bufferViews"),
         ("/accessors/0/componentType", json!(5124), "/accessors/0/componentType", "found 5124"),
         ("/accessors/0/type", json!("VEC2"), "/accessors/0", "expected 3 numbers per element, found 2"),
-        ("/accessors/0/type", json!("MAT3"), "/accessors/0/type", "found \"MAT3\""),
+        ("/accessors/0/type", json!("MAT3"), "/accessors/0", "5 elements of 36 bytes"),
+        ("/accessors/0/type", json!("MAT5"), "/accessors/0/type", "found \"MAT5\""),
         ("/accessors/1/componentType", json!(5120), "/accessors/1", "unsigned"),
         ("/bufferViews/0/byteLength", json!(1000), "/bufferViews/0", "reaches to byte 1000"),
         ("/bufferViews/0/byteStride", json!(4), "/bufferViews/0/byteStride", "less than the 12 bytes"),

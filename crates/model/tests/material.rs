@@ -298,3 +298,54 @@ fn words_for_later_lead_to_registered_materials() {
         );
     }
 }
+
+#[test]
+fn unlit_surfaces_emit_their_colour_as_it_is_and_scatter_nothing() {
+    let params =
+        Params::new().rgb("basecolor", [1.0, 0.5, 0.25]).rgb("emission", [9.0; 3]).bool("unlit", true);
+    let unlit = material("principled", params.clone());
+    let mut surface = Surface { vertex_color: [0.5, 1.0, 1.0, 0.5], ..place() };
+    let wo = seen_under(0.3);
+    let seen = unlit.emission(&CX, &surface.texture_at());
+    assert_eq!(Basis::Rgb.to_rgb(seen), [0.5, 0.5, 0.25]);
+    let bare = unlit.bsdf(&CX, &mut surface, wo);
+    assert!(bare.is_sharp() && branches(&bare, wo).is_empty() && bare.glossy(wo).is_none());
+    assert_eq!(bare.ambient(), Spectrum::BLACK);
+    // Half of it is there: the rest shows what lies behind.
+    let half = material("principled", params.string("alphamode", "blend"));
+    let seen = half.emission(&CX, &surface.texture_at());
+    assert_eq!(Basis::Rgb.to_rgb(seen), [0.25, 0.25, 0.125]);
+    let [t] = branches(&half.bsdf(&CX, &mut surface, wo), wo)[..] else { panic!("one branch") };
+    assert_eq!((t.wi, t.weight), (-wo, Spectrum::splat(0.5)));
+}
+
+#[test]
+fn blended_surfaces_are_holes_where_nothing_of_them_is_there() {
+    let blend =
+        |alpha| material("principled", Params::new().float("alpha", alpha).string("alphamode", "blend"));
+    let at = place().texture_at();
+    assert!(blend(0.0).is_hole(&CX, &at) && !blend(0.01).is_hole(&CX, &at));
+    let clear = durer_model::texture::TextureAt { vertex_color: [1.0, 1.0, 1.0, 0.0], ..at };
+    assert!(blend(1.0).has_holes() && blend(1.0).is_hole(&CX, &clear));
+}
+
+#[test]
+fn normal_maps_turn_with_their_texture_transform() {
+    let turned = |matrix: [f32; 4]| {
+        let floats = Data::Floats(matrix.to_vec());
+        let params = Params::new().rgb("normal", [0.8, 0.5, 0.9]).with("normaluv", ValueType::Float, floats);
+        let mut surface = place();
+        material("principled", params).bsdf(&CX, &mut surface, seen_under(1.0));
+        surface.n_s
+    };
+    let near = |n: Normal3, x: f32, y: f32| (n - Normal3::new(x, y, 0.8)).length() < 1e-5;
+    assert!(near(turned([3.0, 0.0, 0.0, 2.0]), 0.6, 0.0));
+    // u' = -v: u' grows towards -v. u' = -u: the map is mirrored.
+    assert!(near(turned([0.0, -1.0, 1.0, 0.0]), 0.0, -0.6));
+    assert!(near(turned([-1.0, 0.0, 0.0, 1.0]), -0.6, 0.0));
+    // Stretched to a line: as if there were no transform.
+    assert!(near(turned([1.0, 0.0, 1.0, 0.0]), 0.6, 0.0));
+    let (_, said) =
+        built("principled", Params::new().with("normaluv", ValueType::Float, Data::Floats(vec![1.0])));
+    assert!(said.has_errors());
+}

@@ -133,6 +133,8 @@ pub struct Scene {
     pub(crate) movers: Vec<PlacedShape>,
     /// True if some material has holes, so that hits must be asked about them.
     pub(crate) has_holes: bool,
+    /// True if some material is not seen from behind.
+    pub(crate) has_backs: bool,
 }
 
 impl UserGeometry for Scene {
@@ -148,11 +150,13 @@ impl UserGeometry for Scene {
     }
 }
 
-/// A scene some of whose surfaces are cut out by textures.
+/// A scene some of whose surfaces are cut out by textures, or not seen from behind.
 struct Holed<'a> {
     cx: &'a SampleCx<'a>,
     /// The ray in render space.
     ray: &'a Ray,
+    /// Whether surfaces hide their backs.
+    culls: bool,
 }
 
 impl UserGeometry for Holed<'_> {
@@ -162,15 +166,22 @@ impl UserGeometry for Holed<'_> {
         self.cx.scene.intersect(instance, prim, ray, t_max)
     }
     fn accepts(&self, hit: &Hit) -> bool {
-        !self.cx.scene.is_hole(self.cx, self.ray, hit)
+        let Self { cx, ray, culls } = *self;
+        let (object, prim) = cx.scene.resolve(hit);
+        let material = cx.scene.material(object);
+        let is_hidden = culls && material.is_one_sided() && cx.scene.is_back(ray, hit, object, prim);
+        let is_hole = || {
+            material.has_holes() && material.is_hole(&cx.shade(), &cx.scene.surface(ray, hit).1.texture_at())
+        };
+        !is_hidden && !is_hole()
     }
 }
 
 impl Scene {
     /// The nearest hit that is no hole.
     pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
-        match self.has_holes {
-            true => self.accel.closest(ray, &Holed { cx, ray }, probe, id),
+        match self.has_holes || self.has_backs {
+            true => self.accel.closest(ray, &Holed { cx, ray, culls: true }, probe, id),
             false => self.accel.closest(ray, self, probe, id),
         }
     }
@@ -178,19 +189,31 @@ impl Scene {
     /// True if anything that is no hole lies on the ray.
     pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
         match self.has_holes {
-            true => self.accel.any(ray, &Holed { cx, ray }, probe, id),
+            true => self.accel.any(ray, &Holed { cx, ray, culls: false }, probe, id),
             false => self.accel.any(ray, self, probe, id),
         }
     }
 
-    /// The nearest object on the ray; unwatched.
+    /// The nearest object that casts a shadow on the ray; unwatched.
     pub fn blocker(&self, cx: &SampleCx<'_>, ray: &Ray) -> Option<Id<Object>> {
-        self.closest(cx, ray, &mut NoProbe, ()).map(|hit| self.resolve(&hit).0)
+        let holed = Holed { cx, ray, culls: false };
+        self.accel.closest(ray, &holed, &mut NoProbe, ()).map(|hit| self.resolve(&hit).0)
     }
 
-    fn is_hole(&self, cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> bool {
-        let material = self.material(self.resolve(hit).0);
-        material.has_holes() && material.is_hole(&cx.shade(), &self.surface(ray, hit).1.texture_at())
+    /// True if the ray met something from behind. The winding of triangles decides, as it does for rasterisers,
+    /// whatever the vertex normals say.
+    fn is_back(&self, ray: &Ray, hit: &Hit, object: Id<Object>, prim: u32) -> bool {
+        let (mesh, d) = match &self.targets[hit.instance as usize] {
+            Target::Merged => (&self.merged_at(hit.prim).mesh, ray.d),
+            Target::Mesh(_, mesh) => {
+                let to_render = self.accel.instance_transform(hit.instance, ray.time);
+                (&**mesh, to_render.inverse().vector(ray.d))
+            }
+            Target::Shapes | Target::Mover(_) => return !self.surface(ray, hit).1.is_outside(-ray.d),
+        };
+        let [a, b, c] = mesh.corners(mesh.indices[prim as usize].map(|i| i as usize), ray.time);
+        let front = (b - a).cross(c - a).dot(d) <= 0.0;
+        front == self.object(object).reverse_orientation
     }
 
     /// The object of a hit, and the hit triangle's number within its mesh.

@@ -18,6 +18,7 @@ pub(crate) fn folder(name: &str) -> Option<PathBuf> {
     None
 }
 
+#[allow(dead_code, reason = "each test target uses some of it")]
 /// All files below `folder`, sorted.
 pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();

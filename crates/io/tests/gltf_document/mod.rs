@@ -11,10 +11,16 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
 }
 
 /// Imports `document`, with `asset` and a buffer holding `bytes` added. Sets the scene to node 0 if there is none.
-pub(crate) fn import(mut document: Value, bytes: &[u8]) -> Imported {
+pub(crate) fn import(document: Value, bytes: &[u8]) -> Imported {
+    import_buffers(document, bytes, json!([{"byteLength": bytes.len()}]))
+}
+
+/// [`import`] with these `buffers`, the first of which gets the bytes.
+pub(crate) fn import_buffers(mut document: Value, bytes: &[u8], buffers: Value) -> Imported {
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes));
     document["asset"] = json!({"version": "2.0"});
-    document["buffers"] = json!([{"byteLength": bytes.len(), "uri": uri}]);
+    document["buffers"] = buffers;
+    document["buffers"][0]["uri"] = json!(uri);
     if document.get("scenes").is_none() {
         document["scenes"] = json!([{"nodes": [0]}]);
     }

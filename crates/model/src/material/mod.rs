@@ -35,6 +35,10 @@ pub trait Material: Debug + Send + Sync {
     fn has_holes(&self) -> bool {
         false
     }
+    /// True if the surface is not seen from behind: rays pass, but those to lights do not.
+    fn is_one_sided(&self) -> bool {
+        false
+    }
     /// True if the surface is cut out at a point: rays pass as if nothing were there.
     fn is_hole(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> bool {
         let _ = (cx, at);

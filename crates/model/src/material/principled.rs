@@ -6,9 +6,10 @@
 //! scaling): as `E` is affine in `f0`, the whole never reflects more than arrives. It is not reciprocal.
 //!
 //! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight
-//! (KHR_materials_transmission). Coverage (`alphamode blend`) scales everything and lets the rest pass.
+//! (KHR_materials_transmission). Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0
+//! there is a hole. `unlit` (KHR_materials_unlit) leaves nothing but the base colour, which the surface then emits.
 use durer_core::{
-    math::{Frame, Vector3, float::sqr},
+    math::{Frame, Normal3, Vector3, float::sqr},
     spectrum::{Color, Spectrum},
 };
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -30,7 +31,7 @@ enum AlphaMode {
     Blend,
 }
 
-/// The glTF material, the same from both sides.
+/// The glTF material; what is seen of it looks the same from both sides.
 #[derive(Debug)]
 pub struct Principled {
     base: ColorInput,
@@ -44,6 +45,10 @@ pub struct Principled {
     strength: f32,
     normal: Option<ColorInput>,
     normal_scale: f32,
+    /// What the texture transform of the normal map does to surface coordinates, inverted: du/du', du/dv', dv/du', dv/dv'.
+    normal_frame: [f32; 4],
+    unlit: bool,
+    one_sided: bool,
 }
 
 impl Kind for Principled {
@@ -83,6 +88,24 @@ impl Kind for Principled {
                 "Normal map: a linear colour texture, n = 2 c - 1.",
             ),
             ParamSpec::float("normalscale", 1.0, "Factor on the slope of the normal map."),
+            ParamSpec::new(
+                "normaluv",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "m0 m1 m3 m4 of the normal map's uvmatrix, where its tangents are to turn with it.",
+            ),
+            ParamSpec::new(
+                "unlit",
+                ParamType::Bool,
+                ParamDefault::Bool(false),
+                "Emit the base colour and scatter nothing: what is seen is the colour itself.",
+            ),
+            ParamSpec::new(
+                "onesided",
+                ParamType::Bool,
+                ParamDefault::Bool(false),
+                "Not seen from behind (glTF without doubleSided); it casts its shadow all the same.",
+            ),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -104,11 +127,38 @@ impl Kind for Principled {
             strength: args.float("emissionstrength"),
             normal,
             normal_scale: args.float("normalscale"),
+            normal_frame: normal_frame(args),
+            unlit: args.bool("unlit"),
+            one_sided: args.bool("onesided"),
         }))
     }
 }
 
+/// The inverse of the parameter `normaluv`; complains if there is none.
+fn normal_frame(args: &mut Args<'_>) -> [f32; 4] {
+    match *args.floats("normaluv") {
+        [] => {}
+        [a, b, c, d] if a * d - b * c != 0.0 => {
+            let determinant = a * d - b * c;
+            return [d, -b, -c, a].map(|v| v / determinant);
+        }
+        // A map that is stretched to a line has no tangents to speak of.
+        [_, _, _, _] => {}
+        ref other => {
+            args.error("normaluv", format!("\"normaluv\" has {} values, expected 4", other.len()));
+        }
+    }
+    [1.0, 0.0, 0.0, 1.0]
+}
+
 impl Principled {
+    /// The shading normal under the normal map.
+    fn tilted(&self, cx: &ShadeCx<'_>, map: ColorInput, surface: &Surface, wo: Vector3) -> Normal3 {
+        let [a, b, c, d] = self.normal_frame;
+        let (dpdu, dpdv) = (surface.dpdu, surface.dpdv);
+        let turned = Surface { dpdu: dpdu * a + dpdv * c, dpdv: dpdu * b + dpdv * d, ..*surface };
+        normal_map::tilted(&turned, cx.color(map, &surface.texture_at()), self.normal_scale, wo)
+    }
     fn alpha(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         cx.float(self.alpha, at) * at.vertex_color[3]
     }
@@ -130,7 +180,11 @@ impl Material for Principled {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
         if let Some(map) = self.normal {
-            surface.n_s = normal_map::tilted(surface, cx.color(map, &at), self.normal_scale, wo);
+            surface.n_s = self.tilted(cx, map, surface, wo);
+        }
+        if self.unlit {
+            let passing = Spectrum::splat(1.0 - self.coverage(cx, &at));
+            return Bsdf::default().with(Lobe::PassThrough { weight: passing });
         }
         let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
         let (base, coverage) = (self.base(cx, &at), self.coverage(cx, &at));
@@ -150,12 +204,24 @@ impl Material for Principled {
             .with(Lobe::PassThrough { weight: passing })
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
-        cx.basis.emission(cx.color(self.emission, at)) * (self.strength * self.coverage(cx, at))
+        let coverage = self.coverage(cx, at);
+        if self.unlit {
+            let [r, g, b, _] = at.vertex_color;
+            return cx.basis.emission(cx.color(self.base, at) * Color::new(r, g, b)) * coverage;
+        }
+        cx.basis.emission(cx.color(self.emission, at)) * (self.strength * coverage)
     }
     fn has_holes(&self) -> bool {
-        matches!(self.mode, AlphaMode::Mask(_))
+        self.mode != AlphaMode::Opaque
     }
     fn is_hole(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> bool {
-        matches!(self.mode, AlphaMode::Mask(cutoff) if self.alpha(cx, at) < cutoff)
+        match self.mode {
+            AlphaMode::Opaque => false,
+            AlphaMode::Mask(cutoff) => self.alpha(cx, at) < cutoff,
+            AlphaMode::Blend => self.alpha(cx, at) <= 0.0,
+        }
+    }
+    fn is_one_sided(&self) -> bool {
+        self.one_sided
     }
 }

@@ -7,7 +7,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
     Texture, TextureAt, Value,
-    mapping::{MAPPING, U_DELTA, U_SCALE, UvMapping, V_DELTA, V_SCALE},
+    mapping::{MAPPING, U_DELTA, U_SCALE, UV_SET, UvMapping, V_DELTA, V_SCALE},
 };
 use crate::ShadeCx;
 
@@ -23,7 +23,7 @@ impl<V: Value> Checkerboard<V> {
     fn square(&self, at: &TextureAt) -> V {
         // Parities are added, not floors: large coordinates would round their sum.
         // PERF: floor is a call where the processor is not known to have SSE4.1 (bench render).
-        let odd = self.mapping.apply(at.uv).map(|c| {
+        let odd = self.mapping.apply(at).map(|c| {
             let truncated = c as i64;
             let floor = truncated - i64::from(c < truncated as f64);
             floor & 1 == 1
@@ -50,6 +50,7 @@ impl<V: Value> Kind for Checkerboard<V> {
         params: &[
             ParamSpec::new("tex1", V::TYPE, V::ONE, "On squares whose coordinates add up to an even number."),
             ParamSpec::new("tex2", V::TYPE, V::ZERO, "On the other squares."),
+            UV_SET,
             U_SCALE,
             V_SCALE,
             U_DELTA,

@@ -105,6 +105,7 @@ pub fn compile(
         return None;
     }
     let has_holes = materials.iter().any(|m| m.has_holes());
+    let has_backs = materials.iter().any(|m| m.is_one_sided());
     let (lights, light_names): (Vec<Box<dyn Light>>, _) = lights.into_iter().unzip();
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
@@ -124,6 +125,7 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         has_holes,
+        has_backs,
     })
 }
 

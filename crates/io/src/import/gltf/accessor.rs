@@ -1,9 +1,14 @@
 //! Accessors: typed arrays in buffer views. Every range is checked before the first byte is read.
+use rayon::prelude::*;
+
 use super::{
     buffer::Buffers,
     document::Document,
     element::{Checked, Element},
 };
+
+/// Fewer elements than this are not worth another thread.
+const AT_ONCE: usize = 1 << 14;
 
 /// The type of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,17 +93,14 @@ fn strided<'b, 'a>(
     }
     let reach =
         count.saturating_sub(1).checked_mul(stride).and_then(|b| b.checked_add(size)?.checked_add(start));
-    match (reach, view.bytes.get(start..)) {
-        (Some(reach), Some(bytes)) if reach <= view.bytes.len() => Ok(Strided { bytes, stride }),
-        _ => {
-            let (have, at) = (view.bytes.len(), view.element.pointer());
-            let message = format!(
-                "{count} elements of {stride} bytes from byte {start} do not fit {at}, \
-                                   which has {have} bytes"
-            );
-            Err(from.fault(message))
-        }
+    if reach.is_none_or(|reach| reach > view.length) {
+        let (have, at) = (view.length, view.element.pointer());
+        let message = format!(
+            "{count} elements of {stride} bytes from byte {start} do not fit {at}, which has {have} bytes"
+        );
+        return Err(from.fault(message));
     }
+    Ok(Strided { bytes: view.bytes?.get(start..).unwrap_or_default(), stride })
 }
 
 impl<'b, 'a> Accessor<'b, 'a> {
@@ -108,21 +110,35 @@ impl<'b, 'a> Accessor<'b, 'a> {
         buffers: &'b Buffers<'a>,
         reference: &Element<'a>,
     ) -> Checked<Self> {
-        let element = document.item("accessors", reference)?;
+        Self::at(document, buffers, document.item("accessors", reference)?)
+    }
+    /// The accessor `element`.
+    pub(super) fn at(
+        document: &Document<'a>,
+        buffers: &'b Buffers<'a>,
+        element: Element<'a>,
+    ) -> Checked<Self> {
         let component = Component::parse(&element.required("componentType")?)?;
         let shape = element.required("type")?;
-        let lanes = match shape.text()? {
-            "SCALAR" => 1,
-            "VEC2" => 2,
-            "VEC3" => 3,
-            "VEC4" => 4,
+        let (columns, rows) = match shape.text()? {
+            "SCALAR" => (1, 1),
+            "VEC2" => (1, 2),
+            "VEC3" => (1, 3),
+            "VEC4" => (1, 4),
+            "MAT2" => (2, 2),
+            "MAT3" => (3, 3),
+            "MAT4" => (4, 4),
             other => {
-                let message = format!("expected SCALAR, VEC2, VEC3 or VEC4, found \"{other}\"");
+                let message =
+                    format!("expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4, found \"{other}\"");
                 return Err(shape.fault(message));
             }
         };
+        let lanes = columns * rows;
         let count = element.required("count")?.index()?;
-        let size = lanes * component.size();
+        // The columns of a matrix begin at multiples of 4 bytes.
+        let column = rows * component.size();
+        let size = if columns == 1 { column } else { columns * column.next_multiple_of(4) };
         let base = match element.get("bufferView")? {
             Some(_) => Some(strided(document, buffers, &element, count, size)?),
             None => None,
@@ -160,22 +176,33 @@ impl<'b, 'a> Accessor<'b, 'a> {
         }
     }
 
-    /// All elements of an index accessor.
-    pub(super) fn indices(&self, document: &Document<'a>) -> Checked<Vec<u32>> {
-        let n = (document, None);
-        let rows: Vec<[u32; 1]> = match self.component {
+    /// All elements, or those that `which` names, of an accessor that holds indices: into vertices or joints.
+    pub(super) fn indices<const N: usize>(
+        &self,
+        document: &Document<'a>,
+        which: Option<&[u32]>,
+    ) -> Checked<Vec<[u32; N]>> {
+        let n = (document, which);
+        match self.component {
             Component::U8 => self.gather(n, |[b]: [u8; 1]| u32::from(b)),
             Component::U16 => self.gather(n, |b: [u8; 2]| u32::from(u16::from_le_bytes(b))),
             Component::U32 => self.gather(n, u32::from_le_bytes),
             _ => Err(self.element.fault("indices must be unsigned integers")),
-        }?;
-        Ok(rows.into_iter().map(|[i]| i).collect())
+        }
+    }
+    /// The same numbers, read as fractions of 1 if they are integers.
+    pub(super) fn into_fractions(self) -> Self {
+        Self { normalized: true, ..self }
+    }
+    /// True if these are integers that stand for themselves.
+    pub(super) fn holds_integers(&self) -> bool {
+        self.component != Component::F32 && !self.normalized
     }
 
-    fn gather<T: Copy + Default, const N: usize, const S: usize>(
+    fn gather<T: Copy + Default + Send + Sync, const N: usize, const S: usize>(
         &self,
         (document, which): (&Document<'a>, Option<&[u32]>),
-        convert: impl Fn([u8; S]) -> T,
+        convert: impl Fn([u8; S]) -> T + Sync,
     ) -> Checked<Vec<[T; N]>> {
         if self.lanes != N {
             let message = format!("expected {N} numbers per element, found {}", self.lanes);
@@ -190,8 +217,12 @@ impl<'b, 'a> Accessor<'b, 'a> {
         let read = |source: Strided<'_>, i: usize| source.row(i).unwrap_or([[0; S]; N]).map(&convert);
         let mut rows: Vec<[T; N]> = match (self.base, which) {
             (None, _) => vec![[T::default(); N]; count],
-            (Some(base), None) => (0..self.count).map(|i| read(base, i)).collect(),
-            (Some(base), Some(which)) => which.iter().map(|&i| read(base, i as usize)).collect(),
+            (Some(base), None) => {
+                (0..self.count).into_par_iter().with_min_len(AT_ONCE).map(|i| read(base, i)).collect()
+            }
+            (Some(base), Some(which)) => {
+                which.par_iter().with_min_len(AT_ONCE).map(|&i| read(base, i as usize)).collect()
+            }
         };
         if let Some(sparse) = &self.sparse {
             for i in 0..sparse.count {

@@ -5,12 +5,14 @@ use base64::{
     Engine, alphabet,
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
-use durer_scene::Assets;
+use durer_scene::{AssetError, Assets};
 use percent_encoding::percent_decode_str;
+use rayon::prelude::*;
 
 use super::{
+    accessor::Accessor,
     document::Document,
-    element::{Checked, Element},
+    element::{Checked, Element, Fault},
 };
 use crate::FileAssets;
 
@@ -64,7 +66,7 @@ impl Bytes<'_> {
     }
 }
 
-/// All buffers of a document. One that could not be loaded is complained about when it is used.
+/// All buffers of a document. One whose bytes are not there is complained about when it is used.
 pub(super) struct Buffers<'a> {
     list: Vec<Checked<Bytes<'a>>>,
 }
@@ -72,8 +74,10 @@ pub(super) struct Buffers<'a> {
 /// A stretch of a buffer.
 #[derive(Clone)]
 pub(super) struct View<'b, 'a> {
-    /// The stretch.
-    pub(super) bytes: &'b [u8],
+    /// The stretch, or why it is not there.
+    pub(super) bytes: Checked<&'b [u8]>,
+    /// How long it is, there or not.
+    pub(super) length: usize,
     /// Bytes from one element to the next, if the file says so.
     pub(super) stride: Option<usize>,
     /// Where it is described.
@@ -83,13 +87,34 @@ pub(super) struct View<'b, 'a> {
 impl<'a> Buffers<'a> {
     /// Loads every buffer; `bin` is the binary chunk.
     pub(super) fn load(document: &Document<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Self> {
-        let buffers = document.root.list("buffers")?.into_iter().enumerate();
+        let buffers = document.root.list("buffers")?.into_par_iter().enumerate();
         let load = |(index, element)| load(&element, bin.filter(|_| index == 0), assets);
-        Ok(Self { list: buffers.map(load).collect() })
+        let loaded: Vec<_> = buffers.map(load).collect();
+        Ok(Self { list: loaded.into_iter().collect::<Checked<_>>()? })
+    }
+    /// Checks the ranges of all buffer views and accessors, used or not. That bytes are not there does not matter yet.
+    pub(super) fn check(&self, document: &Document<'a>) -> Checked<()> {
+        let matters = |fault: &Fault| !self.list.iter().flat_map(|b| b.as_ref().err()).any(|f| f == fault);
+        for view in document.root.list("bufferViews")? {
+            document.keep_if(self.view_at(document, view), matters);
+        }
+        for accessor in document.root.list("accessors")? {
+            document.keep_if(Accessor::at(document, self, accessor), matters);
+        }
+        Ok(())
     }
     /// Bytes of all buffers together.
     pub(super) fn total(&self) -> u64 {
         self.list.iter().flatten().map(|b| b.as_slice().len() as u64).sum()
+    }
+    /// Warns about buffers that could not be loaded, which nobody has used, or that would have been complained about.
+    pub(super) fn warn_of_unused(&self, document: &Document<'a>) -> Checked<()> {
+        for (element, loaded) in document.root.list("buffers")?.iter().zip(&self.list) {
+            if let (Err(fault), false) = (loaded, document.has_errors()) {
+                document.warn(element, format!("{}; nothing uses this buffer", fault.message));
+            }
+        }
+        Ok(())
     }
     /// The buffer view that `reference` names by index.
     pub(super) fn view<'b>(
@@ -97,41 +122,63 @@ impl<'a> Buffers<'a> {
         document: &Document<'a>,
         reference: &Element<'a>,
     ) -> Checked<View<'b, 'a>> {
-        let element = document.item("bufferViews", reference)?;
+        self.view_at(document, document.item("bufferViews", reference)?)
+    }
+    fn view_at<'b>(&'b self, document: &Document<'a>, element: Element<'a>) -> Checked<View<'b, 'a>> {
         let buffer = element.required("buffer")?;
-        document.item("buffers", &buffer)?;
+        let described = document.item("buffers", &buffer)?;
         let bytes = match self.list.get(buffer.index()?) {
-            Some(Ok(bytes)) => bytes.as_slice(),
-            Some(Err(fault)) => return Err(fault.clone()),
-            None => &[],
+            Some(Ok(bytes)) => Ok(bytes.as_slice()),
+            Some(Err(fault)) => Err(fault.clone()),
+            None => Ok(&[][..]),
+        };
+        let whole = match &bytes {
+            Ok(bytes) => bytes.len(),
+            Err(_) => described.required("byteLength")?.index()?,
         };
         let start = element.index_or("byteOffset", 0)?;
         let size = element.required("byteLength")?.index()?;
-        let view = bytes.get(start..).and_then(|rest| rest.get(..size)).ok_or_else(|| {
-            let reach = start.saturating_add(size);
-            element.fault(format!("reaches to byte {reach}, but the buffer has {}", bytes.len()))
-        })?;
+        let reach = start.saturating_add(size);
+        if reach > whole {
+            return Err(element.fault(format!("reaches to byte {reach}, but the buffer has {whole}")));
+        }
         let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
-        Ok(View { bytes: view, stride, element })
+        let bytes = bytes.map(|bytes| bytes.get(start..reach).unwrap_or_default());
+        Ok(View { bytes, length: size, stride, element })
     }
 }
 
-fn load<'a>(element: &Element<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Bytes<'a>> {
+/// The bytes of a buffer, or why they are not there: that is a fault only of those who use them.
+///
+/// # Errors
+/// If what is there is wrong.
+fn load<'a>(
+    element: &Element<'a>,
+    bin: Option<&'a [u8]>,
+    assets: &FileAssets,
+) -> Checked<Checked<Bytes<'a>>> {
     let length = element.required("byteLength")?;
     let wanted = length.index()?;
     let bytes = match element.get("uri")? {
         None => {
             let missing = "expected \"uri\" or, for the first buffer of a .glb file, a binary chunk";
-            Bytes::Chunk(bin.ok_or_else(|| element.fault(missing))?)
+            match bin {
+                Some(bin) => Bytes::Chunk(bin),
+                None => return Ok(Err(element.fault(missing))),
+            }
         }
         Some(uri) => match parse_uri(&uri)? {
             Uri::Data(bytes) => Bytes::Owned(bytes),
-            Uri::Path(path) => Bytes::File(assets.bytes(&path).map_err(|e| uri.fault(e.to_string()))?),
+            Uri::Path(path) => match assets.bytes(&path) {
+                Ok(bytes) => Bytes::File(bytes),
+                Err(error @ AssetError::Missing { .. }) => return Ok(Err(uri.fault(error.to_string()))),
+                Err(error) => return Err(uri.fault(error.to_string())),
+            },
         },
     };
     let found = bytes.as_slice().len();
     if found < wanted {
         return Err(length.fault(format!("{wanted} bytes announced, but the buffer has {found}")));
     }
-    Ok(bytes)
+    Ok(Ok(bytes))
 }

@@ -41,10 +41,18 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
         let data = whole.get(at + 8..).and_then(|rest| rest.get(..size as usize)).ok_or_else(|| {
             format!("GLB chunk at byte {at}: {size} bytes announced, but the file ends before")
         })?;
+        if !size.is_multiple_of(4) {
+            return Err(format!("GLB chunk at byte {at}: its length, {size}, is not a multiple of 4"));
+        }
+        let second = json.is_some_and(|j: &[u8]| at == 20 + j.len());
         match kind {
             JSON if at == 12 => json = Some(data),
             _ if at == 12 => return Err("the first GLB chunk must be of type JSON".to_owned()),
-            BIN if bin.is_none() => bin = Some(data),
+            BIN if second => bin = Some(data),
+            JSON | BIN => {
+                let what = "a GLB file holds one JSON chunk and, right behind it, at most one BIN chunk";
+                return Err(format!("GLB chunk at byte {at}: {what}"));
+            }
             // Chunks of unknown types are to be skipped.
             _ => {}
         }

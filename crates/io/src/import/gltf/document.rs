@@ -2,9 +2,13 @@
 use std::{
     cell::{Cell, RefCell},
     collections::BTreeSet,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
-use durer_scene::{Diagnostics, Limits, Location};
+use durer_scene::{Diagnostic, Diagnostics, Location, Severity};
 
 use super::element::{Checked, Element, Fault};
 
@@ -12,19 +16,42 @@ use super::element::{Checked, Element, Fault};
 pub(super) struct Document<'a> {
     /// Its outermost object.
     pub(super) root: Element<'a>,
-    /// Bounds on nesting.
-    pub(super) limits: Limits,
-    file: String,
+    file: Arc<str>,
     complaints: RefCell<Diagnostics>,
     said: RefCell<BTreeSet<String>>,
-    budget: Cell<u64>,
+    errors: Cell<usize>,
+    warnings: Cell<usize>,
+    budget: Arc<AtomicU64>,
 }
 
 impl<'a> Document<'a> {
     /// The document `root` of `file`.
-    pub(super) fn new(root: Element<'a>, file: String, limits: Limits) -> Self {
-        let complaints = RefCell::default();
-        Self { root, limits, file, complaints, said: RefCell::default(), budget: Cell::new(0) }
+    pub(super) fn new(root: Element<'a>, file: &str) -> Self {
+        let (complaints, said) = (RefCell::default(), RefCell::default());
+        let (errors, warnings) = (Cell::new(0), Cell::new(0));
+        Self { root, file: file.into(), complaints, said, errors, warnings, budget: Arc::default() }
+    }
+    /// The same document with complaints of its own, for work on another thread; the budget stays shared.
+    pub(super) fn apart(&self) -> Self {
+        let apart = Self::new(self.root.clone(), &self.file);
+        Self { budget: Arc::clone(&self.budget), ..apart }
+    }
+    /// Takes over the complaints of [`Self::apart`], less those that were said before.
+    pub(super) fn absorb(&self, other: Self) {
+        for Diagnostic { severity, at, message, hint } in other.complaints.into_inner().iter() {
+            let Location::Path { pointer, .. } = at else { continue };
+            match severity {
+                Severity::Error => self.error(Fault {
+                    pointer: pointer.clone(),
+                    message: message.clone(),
+                    hint: hint.clone(),
+                }),
+                Severity::Warning => self.warn_at(pointer, message.clone()),
+                Severity::Note => {
+                    self.complaints.borrow_mut().note(at.clone(), message.clone());
+                }
+            }
+        }
     }
     /// Element of the list `list` that `reference` names by index.
     pub(super) fn item(&self, list: &str, reference: &Element<'a>) -> Checked<Element<'a>> {
@@ -32,7 +59,7 @@ impl<'a> Document<'a> {
         if let Some(item) = self.root.list_item(list, index)? {
             return Ok(item);
         }
-        let count = self.root.list(list)?.len();
+        let count = self.root.get(list)?.map_or(Ok(0), |list| list.items().map(|items| items.len()))?;
         Err(reference.fault(format!("refers to /{list}/{index}, but there are only {count} {list}")))
     }
     /// [`Self::item`] for the optional member `key` of `from`.
@@ -41,7 +68,7 @@ impl<'a> Document<'a> {
     }
 
     fn location(&self, pointer: &str) -> Location {
-        Location::Path { file: self.file.clone(), pointer: pointer.to_owned() }
+        Location::Path { file: self.file.to_string(), pointer: pointer.to_owned() }
     }
     /// Adds an error, once: many things may fail by the same cause.
     pub(super) fn error(&self, fault: Fault) {
@@ -49,7 +76,7 @@ impl<'a> Document<'a> {
             return;
         }
         let mut complaints = self.complaints.borrow_mut();
-        if complaints.is_full() {
+        if self.errors.replace(self.errors.get().saturating_add(1)) >= Diagnostics::MOST_ERRORS {
             return;
         }
         let diagnostic = complaints.error(self.location(&fault.pointer), fault.message);
@@ -61,12 +88,27 @@ impl<'a> Document<'a> {
     pub(super) fn keep<T>(&self, checked: Checked<T>) -> Option<T> {
         checked.map_err(|fault| self.error(fault)).ok()
     }
+    /// Turns a fault that counts into an error.
+    pub(super) fn keep_if<T>(&self, checked: Checked<T>, counts: impl FnOnce(&Fault) -> bool) {
+        if let Some(fault) = checked.err().filter(counts) {
+            self.error(fault);
+        }
+    }
     /// Adds a warning, unless the same words were said before about another place.
     pub(super) fn warn(&self, at: &Element<'_>, message: impl Into<String>) {
-        let message = message.into();
-        if self.said.borrow_mut().insert(message.clone()) {
-            self.complaints.borrow_mut().warning(self.location(at.pointer()), message);
+        self.warn_at(at.pointer(), message.into());
+    }
+    fn warn_at(&self, pointer: &str, message: String) {
+        if !self.said.borrow_mut().insert(message.clone()) {
+            return;
         }
+        let before = self.warnings.replace(self.warnings.get().saturating_add(1));
+        let message = match before.cmp(&Diagnostics::MOST_ERRORS) {
+            std::cmp::Ordering::Less => message,
+            std::cmp::Ordering::Equal => "from here on warnings are left out: there are too many".to_owned(),
+            std::cmp::Ordering::Greater => return,
+        };
+        self.complaints.borrow_mut().warning(self.location(pointer), message);
     }
     /// Adds a note.
     pub(super) fn note(&self, at: &Element<'_>, message: impl Into<String>) {
@@ -74,7 +116,7 @@ impl<'a> Document<'a> {
     }
     /// True if an error was found.
     pub(super) fn has_errors(&self) -> bool {
-        self.complaints.borrow().has_errors()
+        self.errors.get() > 0
     }
     /// All complaints.
     pub(super) fn into_complaints(self) -> Diagnostics {
@@ -84,17 +126,15 @@ impl<'a> Document<'a> {
     /// Sets what geometry may unpack to, from the size of the buffers it is unpacked from. Quantised, sparse and
     /// shared accessors make arrays grow a few times; a file that wants more than this is an attack.
     pub(super) fn set_budget(&self, buffer_bytes: u64) {
-        self.budget.set(buffer_bytes.saturating_mul(256).saturating_add(64 << 20));
+        self.budget.store(buffer_bytes.saturating_mul(256).saturating_add(64 << 20), Ordering::Relaxed);
     }
     /// Takes `bytes` from that budget before they are allocated.
     pub(super) fn spend(&self, at: &Element<'_>, count: usize, size: usize) -> Checked<()> {
         let bytes = (count as u64).saturating_mul(size as u64);
-        match self.budget.get().checked_sub(bytes) {
-            Some(left) => {
-                self.budget.set(left);
-                Ok(())
-            }
-            None => Err(at.fault(format!(
+        let take = |left: u64| left.checked_sub(bytes);
+        match self.budget.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take) {
+            Ok(_) => Ok(()),
+            Err(_) => Err(at.fault(format!(
                 "the geometry of this file unpacks to far more than its buffers hold ({count} elements here)"
             ))),
         }

@@ -118,6 +118,10 @@ impl<'a> Element<'a> {
         };
         usize::try_from(whole).map_err(|_| wrong())
     }
+    /// A truth value.
+    pub(super) fn truth(&self) -> Checked<bool> {
+        self.value.as_bool().ok_or_else(|| self.expected("true or false"))
+    }
     /// A string.
     pub(super) fn text(&self) -> Checked<&'a str> {
         self.value.as_str().ok_or_else(|| self.expected("a string"))
@@ -148,10 +152,7 @@ impl<'a> Element<'a> {
     }
     /// The truth value `key`; false if it is missing.
     pub(super) fn flag(&self, key: &str) -> Checked<bool> {
-        let Some(flag) = self.get(key)? else {
-            return Ok(false);
-        };
-        flag.value.as_bool().ok_or_else(|| flag.expected("true or false"))
+        self.get(key)?.map_or(Ok(false), |flag| flag.truth())
     }
     /// The member `name`, or nothing: a missing or ill-typed name is no reason to refuse a scene.
     pub(super) fn name(&self) -> &'a str {

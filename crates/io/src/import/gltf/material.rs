@@ -1,42 +1,110 @@
 //! Materials: metallic-roughness with its extensions to the kind `principled`.
 //!
-//! `doubleSided` is ignored knowingly: rays hit both sides. Occlusion textures are ignored too: rays find out.
+//! Occlusion textures are ignored knowingly: rays find out what is hidden from what.
 use durer_core::Id;
-use durer_scene::{MaterialRef, NamedNode, Node, Params};
+use durer_scene::{Data, MaterialRef, NamedNode, Node, Params, ValueType};
 
 use super::{
     document::Document,
     element::{Checked, Element},
-    texture::{Role, Textures},
+    texture::{Role, Textures, linear_part, uv_set},
 };
 
-/// The materials of a document, by index; one that is at fault stays in its place with no parameters.
-pub(super) fn materials<'a>(
-    document: &Document<'a>,
-    textures: &mut Textures<'_, 'a>,
-) -> Checked<Vec<NamedNode>> {
-    let list = document.root.list("materials")?.into_iter().enumerate();
-    let made = list.map(|(index, element)| {
-        let name = match element.name() {
-            "" => format!("material:{index}"),
-            name => name.to_owned(),
-        };
-        let params = document.keep(principled(document, &element, textures)).unwrap_or_default();
-        NamedNode { name, node: Node::new("principled", params) }
-    });
-    Ok(made.collect())
+/// What a primitive gets from its material.
+pub(super) struct Look {
+    /// The material.
+    pub(super) material: Option<MaterialRef>,
+    /// Numbers of the texture coordinates it uses; normal maps use the first.
+    pub(super) sets: [usize; 2],
 }
 
-/// The material of a primitive.
-pub(super) fn reference<'a>(
-    document: &Document<'a>,
-    primitive: &Element<'a>,
-) -> Checked<Option<MaterialRef>> {
-    let Some(reference) = primitive.get("material")? else {
-        return Ok(None);
+/// The materials of a document.
+#[derive(Default)]
+pub(super) struct Looks {
+    /// Those of the file, by index, then variants of them. One that is at fault stays in its place with no parameters.
+    pub(super) list: Vec<NamedNode>,
+    sets: Vec<[usize; 2]>,
+    /// By index: the variant for meshes with tangents of their own.
+    with_tangents: Vec<Option<usize>>,
+}
+
+impl Looks {
+    /// Reads all materials.
+    pub(super) fn read<'a>(document: &Document<'a>, textures: &mut Textures<'_, 'a>) -> Checked<Self> {
+        let mut looks = Self::default();
+        let mut variants = Vec::new();
+        for (index, element) in document.root.list("materials")?.into_iter().enumerate() {
+            let name = match element.name() {
+                "" => format!("material:{index}"),
+                name => name.to_owned(),
+            };
+            let sets = document.keep(sets(document, &element)).unwrap_or([0, 1]);
+            textures.sets = sets;
+            let params = document.keep(principled(document, &element, textures)).unwrap_or_default();
+            looks.with_tangents.push(params.get(NORMAL_UV).map(|_| variants.len()));
+            if params.get(NORMAL_UV).is_some() {
+                let mut plain = Params::new();
+                params.iter().filter(|p| p.name != NORMAL_UV).for_each(|p| plain.push(p.clone()));
+                variants.push(NamedNode { name: name.clone(), node: Node::new(KIND, plain) });
+            }
+            looks.sets.push(sets);
+            looks.list.push(NamedNode { name, node: Node::new(KIND, params) });
+        }
+        let count = looks.list.len();
+        looks.with_tangents.iter_mut().flatten().for_each(|variant| *variant += count);
+        looks.list.append(&mut variants);
+        Ok(looks)
+    }
+
+    /// The look of a primitive.
+    pub(super) fn of<'a>(&self, document: &Document<'a>, primitive: &Element<'a>) -> Checked<Look> {
+        let Some(reference) = primitive.get("material")? else {
+            return Ok(Look { material: None, sets: [0, 1] });
+        };
+        document.item("materials", &reference)?;
+        let index = reference.index()?;
+        let attributes = primitive.required("attributes")?;
+        let tangents = attributes.get("TANGENT")?.is_some() && attributes.get("NORMAL")?.is_some();
+        let variant = self.with_tangents.get(index).copied().flatten().filter(|_| tangents);
+        let sets = self.sets.get(index).copied().unwrap_or([0, 1]);
+        Ok(Look { material: Some(Id::new(variant.unwrap_or(index) as u32)), sets })
+    }
+}
+
+const KIND: &str = "principled";
+const NORMAL_UV: &str = "normaluv";
+
+/// The two sets of texture coordinates that a material uses: that of its normal map, from which tangents follow, or else
+/// the lowest, comes first.
+fn sets<'a>(document: &Document<'a>, material: &Element<'a>) -> Checked<[usize; 2]> {
+    let mut infos = Vec::new();
+    let mut holders = vec![material.clone()];
+    holders.extend(material.get("pbrMetallicRoughness")?);
+    if let Some(extensions) = material.get("extensions")? {
+        for name in extensions.keys() {
+            holders.extend(extensions.get(name)?);
+        }
+    }
+    for holder in &holders {
+        for key in holder.keys().filter(|key| key.ends_with("Texture") && *key != "occlusionTexture") {
+            infos.extend(holder.get(key)?);
+        }
+    }
+    let mut used = infos.iter().map(uv_set).collect::<Checked<Vec<usize>>>()?;
+    used.sort_unstable();
+    used.dedup();
+    let first = match material.get("normalTexture")? {
+        Some(info) => uv_set(&info)?,
+        None => used.first().copied().unwrap_or(0).min(1),
     };
-    document.item("materials", &reference)?;
-    Ok(Some(Id::new(reference.index()? as u32)))
+    let mut others = used.into_iter().filter(|set| *set != first);
+    let second = others.next().unwrap_or(usize::from(first == 0));
+    if let Some(set) = others.next() {
+        let message =
+            format!("a material with more than two sets of texture coordinates: TEXCOORD_{set} is not read");
+        document.warn(material, message);
+    }
+    Ok([first, second])
 }
 
 struct Builder<'m, 'b, 'a> {
@@ -51,19 +119,21 @@ fn principled<'a>(
     textures: &mut Textures<'_, 'a>,
 ) -> Checked<Params> {
     let mut builder = Builder { document, textures, params: Params::new() };
-    let unlit = material.extension("KHR_materials_unlit")?.is_some();
     let pbr = material.get("pbrMetallicRoughness")?;
-    builder.base(material, pbr.as_ref(), if unlit { "emission" } else { "basecolor" })?;
-    if unlit {
-        document.warn(material, "unlit materials are drawn as black ones that emit their colour");
-        // An index of 1 reflects nothing.
-        builder.params = builder.params.rgb("basecolor", [0.0; 3]).float("eta", 1.0);
-        return Ok(builder.params);
+    builder.base(material, pbr.as_ref())?;
+    if material.extension("KHR_materials_unlit")?.is_some() {
+        builder.put(|p| p.bool("unlit", true));
+    } else {
+        builder.metal(pbr.as_ref())?;
+        builder.emission(material)?;
+        builder.normal(material)?;
+        builder.dielectric(material)?;
     }
-    builder.metal(pbr.as_ref())?;
-    builder.emission(material)?;
-    builder.normal(material)?;
-    builder.dielectric(material)?;
+    // Light that comes through a surface leaves it from behind.
+    let clear = builder.params.get("transmission").is_some();
+    if !material.flag("doubleSided")? && !clear {
+        builder.put(|p| p.bool("onesided", true));
+    }
     Ok(builder.params)
 }
 
@@ -114,7 +184,7 @@ impl<'a> Builder<'_, '_, 'a> {
         Ok(())
     }
 
-    fn base(&mut self, material: &Element<'a>, pbr: Option<&Element<'a>>, name: &str) -> Checked<()> {
+    fn base(&mut self, material: &Element<'a>, pbr: Option<&Element<'a>>) -> Checked<()> {
         let (factor, info) = match pbr {
             Some(pbr) => (pbr.numbers_or("baseColorFactor", [1.0; 4])?, pbr.get("baseColorTexture")?),
             None => ([1.0; 4], None),
@@ -123,7 +193,7 @@ impl<'a> Builder<'_, '_, 'a> {
             self.document.warn(material, "baseColorFactor lies outside 0 to 1");
         }
         let [r, g, b, a] = factor.map(|f: f64| f.clamp(0.0, 1.0));
-        self.color(name, info.clone(), [r, g, b])?;
+        self.color("basecolor", info.clone(), [r, g, b])?;
         let mode = match material.text_or("alphaMode", "OPAQUE")? {
             "OPAQUE" => return Ok(()),
             "MASK" => "mask",
@@ -135,7 +205,7 @@ impl<'a> Builder<'_, '_, 'a> {
         };
         self.put(|p| p.string("alphamode", mode));
         if mode == "mask" {
-            let cutoff = material.number_or("alphaCutoff", 0.5)?;
+            let cutoff = self.ranged(Some(material), "alphaCutoff", 0.5, [0.0, 1e6])?;
             self.put(|p| p.float("alphacutoff", cutoff as f32));
         }
         self.float("alpha", info, "a", a)
@@ -159,7 +229,8 @@ impl<'a> Builder<'_, '_, 'a> {
         }
         self.color("emission", material.get("emissiveTexture")?, factor)?;
         if let Some(extension) = material.extension("KHR_materials_emissive_strength")? {
-            let strength = extension.number_or("emissiveStrength", 1.0)?;
+            let strength =
+                self.ranged(Some(&extension), "emissiveStrength", 1.0, [0.0, f64::from(f32::MAX)])?;
             self.put(|p| p.float("emissionstrength", strength as f32));
         }
         Ok(())
@@ -177,13 +248,17 @@ impl<'a> Builder<'_, '_, 'a> {
         if scale != 1.0 {
             self.put(|p| p.float("normalscale", scale as f32));
         }
+        if let Some(matrix) = linear_part(&info)? {
+            self.put(|p| p.with(NORMAL_UV, ValueType::Float, Data::Floats(matrix.to_vec())));
+        }
         Ok(())
     }
 
     fn dielectric(&mut self, material: &Element<'a>) -> Checked<()> {
         if let Some(extension) = material.extension("KHR_materials_ior")? {
             let eta = extension.number_or("ior", 1.5)?;
-            if eta >= 1.0 {
+            // 0 stands for a surface that reflects everything.
+            if eta >= 1.0 || eta == 0.0 {
                 self.put(|p| p.float("eta", eta as f32));
             } else {
                 let message = format!("an index of refraction of {eta} is not supported; 1.5 is used");
@@ -192,7 +267,9 @@ impl<'a> Builder<'_, '_, 'a> {
         }
         if let Some(extension) = material.extension("KHR_materials_transmission")? {
             let factor = self.ranged(Some(&extension), "transmissionFactor", 0.0, [0.0, 1.0])?;
-            self.float("transmission", extension.get("transmissionTexture")?, "r", factor)?;
+            if factor > 0.0 {
+                self.float("transmission", extension.get("transmissionTexture")?, "r", factor)?;
+            }
         }
         Ok(())
     }

@@ -2,7 +2,8 @@
 //!
 //! The file is read as plain JSON with checks of our own: every complaint carries the JSON pointer of its cause, every
 //! index and range is checked before use, and what a file may unpack to is bounded by the size of its buffers.
-//! Skins, morph targets and animations are not applied yet.
+//! Skins and morph targets are drawn as the nodes and weights of the file leave them; animations are not played yet.
+//! What takes time is done in parallel: buffers are read, then all primitives are decoded at the same time.
 
 mod accessor;
 mod buffer;
@@ -11,22 +12,29 @@ mod container;
 mod document;
 mod element;
 mod extension;
+mod instance;
 mod material;
 mod mesh;
+mod morph;
 mod node;
+mod place;
+mod primitive;
+mod skin;
+mod structure;
 mod texture;
 
 use std::path::Path;
 
-use durer_scene::{Limits, Location};
+use durer_scene::{Limits, Location, SceneDesc};
 use serde_json::Value;
 
 use self::{
     buffer::Buffers,
     document::Document,
     element::{Checked, Element},
-    mesh::Meshes,
-    node::{NodeRef, Walk},
+    material::Looks,
+    node::Hierarchy,
+    place::Walk,
     texture::Textures,
 };
 use super::Imported;
@@ -45,7 +53,7 @@ fn parse(path: &Path, file: &str, limits: Limits, imported: &mut Imported) -> Re
     let bytes = read_file(path, file, limits).map_err(|e| e.to_string())?;
     let chunks = container::split(&bytes)?;
     let value: Value = serde_json::from_slice(chunks.json).map_err(|e| format!("not valid JSON: {e}"))?;
-    let document = Document::new(Element::root(&value), file.to_owned(), limits);
+    let document = Document::new(Element::root(&value), file);
     if let Err(fault) = import(&document, chunks.bin, imported) {
         document.error(fault);
     }
@@ -59,32 +67,34 @@ fn import<'a>(document: &Document<'a>, bin: Option<&'a [u8]>, imported: &mut Imp
     if document.has_errors() {
         return Ok(());
     }
+    structure::check(document)?;
+    let nodes = Hierarchy::read(document)?;
     let buffers = Buffers::load(document, bin, &imported.assets)?;
+    buffers.check(document)?;
     document.set_budget(buffers.total());
     let desc = &mut imported.desc;
-    desc.materials = materials(document, &buffers, &mut imported.assets, &mut desc.textures)?;
-    let roots = roots(document)?;
-    let mut walk = Walk { document, buffers: &buffers, meshes: Meshes::new(document, &buffers), desc };
-    let walked = walk.run(roots);
-    let meshes = std::mem::take(&mut walk.meshes.list);
-    desc.meshes = meshes;
+    let looks = looks(document, &buffers, &mut imported.assets, desc)?;
+    let roots = roots(document, &nodes)?;
+    Walk::new(document, &buffers, &nodes, &looks).run(&roots, desc)?;
+    desc.materials = looks.list;
+    buffers.warn_of_unused(document)?;
     let animations = document.root.list("animations")?;
     if let Some(first) = animations.first() {
         document.note(first, format!("animations are not played yet: {}", animations.len()));
     }
-    walked
+    Ok(())
 }
 
-fn materials<'a>(
+fn looks<'a>(
     document: &Document<'a>,
     buffers: &Buffers<'a>,
     assets: &mut FileAssets,
-    list: &mut Vec<durer_scene::TextureDesc>,
-) -> Checked<Vec<durer_scene::NamedNode>> {
+    desc: &mut SceneDesc,
+) -> Checked<Looks> {
     let mut textures = Textures::new(document, buffers, assets);
-    let materials = material::materials(document, &mut textures);
-    *list = textures.list;
-    materials
+    let looks = Looks::read(document, &mut textures);
+    desc.textures = textures.list;
+    looks
 }
 
 fn check_version(document: &Document<'_>) -> Checked<()> {
@@ -111,30 +121,17 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
 
 /// The indices of the nodes at the top: those of the scene the file opens with, else of the first scene, else all
 /// nodes that are no other's child.
-fn roots<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
-    let scene = match document.member(&document.root, "scene", "scenes")? {
-        Some(scene) => Some(scene),
-        None => document.root.list_item("scenes", 0)?,
-    };
-    match scene {
-        Some(scene) => scene.list("nodes")?.into_iter().map(NodeRef::parse).collect(),
+fn roots<'a>(document: &Document<'a>, nodes: &Hierarchy<'a>) -> Checked<Vec<usize>> {
+    let scenes = document.root.list("scenes")?;
+    let number = document.root.index_or("scene", 0)?;
+    if let (Some(scene), true) = (scenes.get(number), scenes.len() > 1) {
+        document.note(scene, format!("the file holds {} scenes; scene {number} is drawn", scenes.len()));
+    }
+    match scenes.get(number) {
+        Some(scene) => scene.list("nodes")?.iter().map(|reference| nodes.index(reference)).collect(),
         None => {
             document.warn(&document.root, "the file holds no scene; all of its nodes are drawn");
-            orphans(document)
+            Ok(nodes.roots.clone())
         }
     }
-}
-
-fn orphans<'a>(document: &Document<'a>) -> Checked<Vec<NodeRef<'a>>> {
-    let nodes = document.root.list("nodes")?;
-    let mut orphan = vec![true; nodes.len()];
-    for node in &nodes {
-        for child in node.list("children")? {
-            if let Some(orphan) = orphan.get_mut(child.index()?) {
-                *orphan = false;
-            }
-        }
-    }
-    let free = nodes.into_iter().enumerate().zip(orphan).filter(|(_, orphan)| *orphan);
-    Ok(free.map(|((index, at), _)| NodeRef { index, at }).collect())
 }

@@ -1,196 +1,103 @@
-//! The node hierarchy: transforms composed in f64, shapes, cameras and lights placed in the world.
-use durer_core::{
-    glam::{DAffine3, DMat3, DQuat, DVec3},
-    math::Motion,
-};
-use durer_scene::{SceneDesc, ShapeDesc, ShapeSource};
+//! The node hierarchy: who is whose child, and where each node is in the world, composed in f64.
+//!
+//! Nodes must form disjoint trees (glTF 2.0, section 3.5.2). Nothing here recurses: a chain may be as long as the file.
+use durer_core::glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::{
-    accessor::Accessor,
-    buffer::Buffers,
-    camera,
     document::Document,
     element::{Checked, Element},
-    material,
-    mesh::Meshes,
 };
 
-/// The index of a node.
-pub(super) struct NodeRef<'a> {
-    /// Which node.
-    pub(super) index: usize,
-    /// Who asked for it: what complaints point at.
-    pub(super) at: Element<'a>,
+/// All nodes of a document.
+pub(super) struct Hierarchy<'a> {
+    nodes: Vec<Element<'a>>,
+    children: Vec<Vec<usize>>,
+    /// Indices of the nodes that are no other's child.
+    pub(super) roots: Vec<usize>,
+    world: Vec<DAffine3>,
 }
 
-impl<'a> NodeRef<'a> {
-    /// From an element of a list of children.
-    pub(super) fn parse(at: Element<'a>) -> Checked<Self> {
-        Ok(Self { index: at.index()?, at })
-    }
-}
-
-/// A node still to be visited.
-struct Visit<'a> {
-    node: NodeRef<'a>,
-    world: DAffine3,
-    depth: usize,
-}
-
-/// Places what the nodes of one scene carry.
-pub(super) struct Walk<'w, 'b, 'a> {
-    /// The document.
-    pub(super) document: &'b Document<'a>,
-    /// Its buffers.
-    pub(super) buffers: &'b Buffers<'a>,
-    /// Its meshes.
-    pub(super) meshes: Meshes<'b, 'a>,
-    /// Where shapes, cameras and lights go.
-    pub(super) desc: &'w mut SceneDesc,
-}
-
-impl<'a> Walk<'_, '_, 'a> {
-    /// Visits every node below the scene's roots, in document order.
-    pub(super) fn run(&mut self, roots: Vec<NodeRef<'a>>) -> Checked<()> {
-        let mut seen = vec![false; self.document.root.list("nodes")?.len()];
-        let visit = |world, depth| move |node| Visit { node, world, depth };
-        let mut stack: Vec<Visit<'a>> = roots.into_iter().rev().map(visit(DAffine3::IDENTITY, 1)).collect();
-        while let Some(Visit { node: NodeRef { index, at }, world: above, depth }) = stack.pop() {
-            let Some(node) = self.document.root.list_item("nodes", index)? else {
-                return Err(
-                    at.fault(format!("refers to /nodes/{index}, but there are only {} nodes", seen.len()))
-                );
-            };
-            if depth > self.document.limits.depth {
-                let message = format!("nodes are nested deeper than {}", self.document.limits.depth);
-                return Err(at.fault(message));
-            }
-            match seen.get_mut(index) {
-                Some(seen) if !*seen => *seen = true,
-                // Two ways to one node are a cycle, or lead to trees that grow exponentially.
-                _ => {
-                    let message = "this node was reached before: nodes must form a tree, without cycles";
-                    return Err(at.fault(message));
+impl<'a> Hierarchy<'a> {
+    /// Reads all nodes; one whose own transform is at fault stands where its parent does, after a complaint.
+    pub(super) fn read(document: &Document<'a>) -> Checked<Self> {
+        let nodes = document.root.list("nodes")?;
+        let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+        let mut children = Vec::with_capacity(nodes.len());
+        for (index, node) in nodes.iter().enumerate() {
+            let mut own = Vec::new();
+            for reference in node.list("children")? {
+                let child = reference.index()?;
+                match parents.get_mut(child) {
+                    Some(parent @ None) => *parent = Some(index),
+                    Some(Some(other)) => {
+                        return Err(reference.fault(format!(
+                            "/nodes/{child} is already a child of /nodes/{other}: a node has one parent"
+                        )));
+                    }
+                    None => return Err(no_such_node(&reference, child, nodes.len())),
                 }
+                own.push(child);
             }
-            if let Some(extension) = node.extension("KHR_node_visibility")?
-                && extension.get("visible")?.is_some()
-                && !extension.flag("visible")?
-            {
-                continue;
-            }
-            let Some(local) = self.document.keep(local(self.document, &node)) else {
-                continue;
-            };
-            let world = above * local;
+            children.push(own);
+        }
+        let roots = parents.iter().enumerate().filter(|(_, p)| p.is_none()).map(|(i, _)| i).collect();
+        let world = vec![DAffine3::IDENTITY; nodes.len()];
+        let mut hierarchy = Self { nodes, children, roots, world };
+        hierarchy.place(document)?;
+        Ok(hierarchy)
+    }
+
+    /// Composes all transforms; complains about nodes that no root leads to.
+    fn place(&mut self, document: &Document<'a>) -> Checked<()> {
+        let mut reached = vec![false; self.nodes.len()];
+        let mut stack: Vec<(usize, DAffine3)> = self.roots.iter().map(|&i| (i, DAffine3::IDENTITY)).collect();
+        while let Some((index, above)) = stack.pop() {
+            let Some(node) = self.nodes.get(index) else { continue };
+            let own = document.keep(local(document, node)).unwrap_or(DAffine3::IDENTITY);
+            let world = above * own;
             if !world.is_finite() {
                 return Err(node.fault("the transforms above this node multiply to infinity"));
             }
-            self.document.keep(self.place(&node, &world));
-            let children =
-                node.list("children")?.into_iter().map(NodeRef::parse).collect::<Checked<Vec<_>>>()?;
-            stack.extend(children.into_iter().rev().map(visit(world, depth + 1)));
-        }
-        Ok(())
-    }
-
-    fn place(&mut self, node: &Element<'a>, world: &DAffine3) -> Checked<()> {
-        if let Some(camera) = self.document.member(node, "camera", "cameras")? {
-            let name = if node.name().is_empty() { camera.name() } else { node.name() };
-            self.desc.cameras.push(camera::camera(&camera, name, world)?);
-        }
-        if let Some(reference) = node.extension("KHR_lights_punctual")? {
-            let light = self.light(&reference.required("light")?)?;
-            let name = if node.name().is_empty() { light.name() } else { node.name() };
-            self.desc.lights.push(camera::light(&light, name, world)?);
-        }
-        let Some(mesh) = self.document.member(node, "mesh", "meshes")? else {
-            return Ok(());
-        };
-        if node.get("skin")?.is_some() {
-            self.document.warn(node, "skins are not applied yet: the mesh is drawn in its bind pose");
-        }
-        match node.extension("EXT_mesh_gpu_instancing")? {
-            None => self.shapes(node, &mesh, world),
-            Some(extension) => {
-                for instance in self.instances(&extension)? {
-                    self.shapes(node, &mesh, &(*world * instance))?;
-                }
-                Ok(())
+            if let Some(place) = self.world.get_mut(index) {
+                *place = world;
             }
+            if let Some(reached) = reached.get_mut(index) {
+                *reached = true;
+            }
+            stack.extend(self.children_of(index).iter().map(|&child| (child, world)));
+        }
+        match reached.iter().position(|reached| !reached).and_then(|i| self.nodes.get(i)) {
+            None => Ok(()),
+            Some(node) => Err(node.fault_at("children", "a cycle: nodes must form trees, without cycles")),
         }
     }
 
-    fn light(&self, reference: &Element<'a>) -> Checked<Element<'a>> {
-        let lights = match self.document.root.extension("KHR_lights_punctual")? {
-            Some(extension) => extension.list_item("lights", reference.index()?)?,
-            None => None,
-        };
-        lights.ok_or_else(|| {
-            reference.fault("there is no such light in /extensions/KHR_lights_punctual/lights")
-        })
+    /// The node that `reference` names by index.
+    pub(super) fn index(&self, reference: &Element<'a>) -> Checked<usize> {
+        let index = reference.index()?;
+        let count = self.nodes.len();
+        if index < count { Ok(index) } else { Err(no_such_node(reference, index, count)) }
     }
-
-    /// One shape per primitive.
-    fn shapes(&mut self, node: &Element<'a>, mesh: &Element<'a>, world: &DAffine3) -> Checked<()> {
-        if world.matrix3.determinant() == 0.0 {
-            self.document.warn(node, "a node is scaled to zero in some direction; it is not drawn");
-            return Ok(());
-        }
-        let name = if node.name().is_empty() { mesh.name() } else { node.name() };
-        let primitives: Vec<Element<'a>> = mesh.required("primitives")?.items()?.collect();
-        for (index, primitive) in primitives.iter().enumerate() {
-            let made = self
-                .meshes
-                .mesh(primitive)
-                .and_then(|id| Ok(id.zip(Some(material::reference(self.document, primitive)?))));
-            let Some(Some((id, material))) = self.document.keep(made) else {
-                continue;
-            };
-            self.document.spend(primitive, 1, size_of::<ShapeDesc>() + size_of::<(f64, DAffine3)>())?;
-            let numbered = || {
-                if name.is_empty() { String::new() } else { format!("{name}#{}", index + 1) }
-            };
-            self.desc.shapes.push(ShapeDesc {
-                name: if primitives.len() > 1 { numbered() } else { name.to_owned() },
-                source: ShapeSource::Mesh(id),
-                world_from_object: Motion::still(*world),
-                material,
-                reverse_orientation: false,
-            });
-        }
-        Ok(())
+    /// A node, if there are as many.
+    pub(super) fn node(&self, index: usize) -> Option<&Element<'a>> {
+        self.nodes.get(index)
     }
-
-    /// Placements of EXT_mesh_gpu_instancing, relative to the node.
-    fn instances(&self, extension: &Element<'a>) -> Checked<Vec<DAffine3>> {
-        let attributes = extension.required("attributes")?;
-        let open = |key| match attributes.get(key)? {
-            Some(reference) => Accessor::open(self.document, self.buffers, &reference).map(Some),
-            None => Ok(None),
-        };
-        let accessors = [open("TRANSLATION")?, open("ROTATION")?, open("SCALE")?];
-        let counts: Vec<usize> = accessors.iter().flatten().map(|a| a.count).collect();
-        let count = counts.first().copied().unwrap_or(0);
-        if counts.iter().any(|c| *c != count) {
-            return Err(attributes.fault("attributes of instances have different lengths"));
-        }
-        let [translation, rotation, scale] = accessors;
-        self.document.spend(extension, count, size_of::<DAffine3>())?;
-        let triple = |a: Option<Accessor<'_, 'a>>, default: f32| {
-            a.map_or(Ok(vec![[default; 3]; count]), |a| a.floats::<3>(self.document, None))
-        };
-        let (moves, scales) = (triple(translation, 0.0)?, triple(scale, 1.0)?);
-        let turns =
-            rotation.map_or(Ok(vec![[0.0, 0.0, 0.0, 1.0]; count]), |a| a.floats::<4>(self.document, None))?;
-        let placed = moves.iter().zip(&turns).zip(&scales).map(|((t, r), s)| {
-            trs(t.map(f64::from), r.map(f64::from), s.map(f64::from)).filter(DAffine3::is_finite)
-        });
-        placed.collect::<Option<_>>().ok_or_else(|| attributes.fault("an instance has no valid placement"))
+    /// Where a node is in the world.
+    pub(super) fn world(&self, index: usize) -> DAffine3 {
+        self.world.get(index).copied().unwrap_or(DAffine3::IDENTITY)
+    }
+    /// Indices of a node's children.
+    pub(super) fn children_of(&self, index: usize) -> &[usize] {
+        self.children.get(index).map_or(&[], Vec::as_slice)
     }
 }
 
-fn trs(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> Option<DAffine3> {
+fn no_such_node(reference: &Element<'_>, index: usize, count: usize) -> super::element::Fault {
+    reference.fault(format!("refers to /nodes/{index}, but there are only {count} nodes"))
+}
+
+/// The placement of a translation, a rotation (x, y, z, w) and a scale; `None` if the rotation is none.
+pub(super) fn trs(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> Option<DAffine3> {
     let [x, y, z, w] = rotation;
     let length = (x * x + y * y + z * z + w * w).sqrt();
     let q = DQuat::from_xyzw(x / length, y / length, z / length, w / length);
@@ -198,16 +105,26 @@ fn trs(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> Option<DAf
     (length > 0.0 && length.is_finite()).then_some(made)
 }
 
+/// The placement of a matrix in column order, less its last row.
+pub(super) fn matrix(m: [f64; 16]) -> DAffine3 {
+    let [a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _] = m;
+    let matrix3 = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
+    DAffine3 { matrix3, translation: DVec3::new(x, y, z) }
+}
+
+/// Whether the last row of a matrix in column order is 0 0 0 1.
+pub(super) fn is_affine(m: &[f64; 16]) -> bool {
+    [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0]
+}
+
 /// A node's own transform.
 fn local(document: &Document<'_>, node: &Element<'_>) -> Checked<DAffine3> {
     if let Some(element) = node.get("matrix")? {
         let m: [f64; 16] = element.numbers()?;
-        let [a, b, c, p, d, e, f, q, g, h, i, r, x, y, z, w] = m;
-        if [p, q, r, w] != [0.0, 0.0, 0.0, 1.0] {
+        if !is_affine(&m) {
             document.warn(&element, "the last row of this matrix is not 0 0 0 1; it is ignored");
         }
-        let matrix3 = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
-        return Ok(DAffine3 { matrix3, translation: DVec3::new(x, y, z) });
+        return Ok(matrix(m));
     }
     let translation = node.numbers_or("translation", [0.0; 3])?;
     let rotation = node.numbers_or("rotation", [0.0, 0.0, 0.0, 1.0])?;

@@ -29,6 +29,8 @@ pub(super) struct Textures<'b, 'a> {
     assets: &'b mut FileAssets,
     filenames: HashMap<usize, String>,
     names: HashMap<String, String>,
+    /// The sets of texture coordinates that a mesh has for the material at work.
+    pub(super) sets: [usize; 2],
     /// The textures.
     pub(super) list: Vec<TextureDesc>,
 }
@@ -41,7 +43,7 @@ impl<'b, 'a> Textures<'b, 'a> {
         assets: &'b mut FileAssets,
     ) -> Self {
         let (filenames, names) = (HashMap::new(), HashMap::new());
-        Self { document, buffers, assets, filenames, names, list: Vec::new() }
+        Self { document, buffers, assets, filenames, names, sets: [0, 1], list: Vec::new() }
     }
 
     /// The name of the texture that the textureInfo object `info` describes; `None` if its image is of no use.
@@ -106,7 +108,7 @@ impl<'b, 'a> Textures<'b, 'a> {
             },
             None => {
                 let view = self.buffers.view(self.document, &image.required("bufferView")?)?;
-                self.assets.insert(embedded.clone(), view.bytes);
+                self.assets.insert(embedded.clone(), view.bytes?);
                 embedded
             }
         };
@@ -137,25 +139,43 @@ impl<'b, 'a> Textures<'b, 'a> {
     }
 
     fn transform(&self, info: &Element<'a>, params: Params) -> Checked<Params> {
-        let extension = info.extension("KHR_texture_transform")?;
-        let mut set = info.index_or("texCoord", 0)?;
         let mut params = params;
-        if let Some(transform) = extension {
-            set = transform.index_or("texCoord", set)?;
-            let offset = transform.numbers_or("offset", [0.0; 2])?;
-            let scale = transform.numbers_or("scale", [1.0; 2])?;
-            let matrix = uv_matrix(offset, transform.number_or("rotation", 0.0)?, scale);
-            if matrix != uv_matrix([0.0; 2], 0.0, [1.0; 2]) {
-                let values = Data::Floats(matrix.map(|v| v as f32).to_vec());
-                params = params.with("uvmatrix", ValueType::Float, values);
-            }
+        if let Some(matrix) = matrix(info)? {
+            let values = Data::Floats(matrix.map(|v| v as f32).to_vec());
+            params = params.with("uvmatrix", ValueType::Float, values);
         }
-        if set != 0 {
-            self.document
-                .warn(info, format!("texture coordinates TEXCOORD_{set} are not read; TEXCOORD_0 is used"));
-        }
-        Ok(params)
+        Ok(if uv_set(info)? == self.sets[1] { params.int("uvset", 1) } else { params })
     }
+}
+
+/// The number of the texture coordinates that a textureInfo object asks for.
+pub(super) fn uv_set(info: &Element<'_>) -> Checked<usize> {
+    let set = info.index_or("texCoord", 0)?;
+    match info.extension("KHR_texture_transform")? {
+        Some(transform) => transform.index_or("texCoord", set),
+        None => Ok(set),
+    }
+}
+
+/// The texture transform of a textureInfo object, if it does anything.
+fn matrix(info: &Element<'_>) -> Checked<Option<[f64; 6]>> {
+    let Some(transform) = info.extension("KHR_texture_transform")? else {
+        return Ok(None);
+    };
+    let offset = transform.numbers_or("offset", [0.0; 2])?;
+    let scale = transform.numbers_or("scale", [1.0; 2])?;
+    let matrix = uv_matrix(offset, transform.number_or("rotation", 0.0)?, scale);
+    Ok((matrix != uv_matrix([0.0; 2], 0.0, [1.0; 2])).then_some(matrix))
+}
+
+/// What the texture transform of a normal map does to tangents: the rows of its matrix without the translation; `None`
+/// if they stay where they are.
+pub(super) fn linear_part(info: &Element<'_>) -> Checked<Option<[f32; 4]>> {
+    let turns = |[a, b, _, c, d, _]: [f64; 6]| {
+        let stays = b == 0.0 && c == 0.0 && a > 0.0 && d > 0.0;
+        (!stays).then_some([a, b, c, d].map(|v| v as f32))
+    };
+    Ok(matrix(info)?.and_then(turns))
 }
 
 /// The rows `[m0 m1 m2; m3 m4 m5]` that map our (u, v) as KHR_texture_transform maps (u, 1 - v).

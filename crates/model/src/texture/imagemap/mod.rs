@@ -14,7 +14,7 @@ use durer_scene::{Args, Image, ImageData, Kind, ParamDefault, ParamSpec, ParamTy
 
 use super::{
     Texture, TextureAt,
-    mapping::{MAPPING, U_DELTA, U_SCALE, UV_MATRIX, UvMapping, V_DELTA, V_SCALE},
+    mapping::{MAPPING, U_DELTA, U_SCALE, UV_MATRIX, UV_SET, UvMapping, V_DELTA, V_SCALE},
 };
 use crate::ShadeCx;
 use texels::Texels;
@@ -56,7 +56,7 @@ impl ImageMap {
 
     /// Linear RGBA, filtered. Black at coordinates that are not finite.
     fn lookup(&self, at: &TextureAt) -> [f32; 4] {
-        let [u, v] = self.mapping.apply(at.uv);
+        let [u, v] = self.mapping.apply(at);
         let x = u * f64::from(self.texels.width());
         let y = (1.0 - v) * f64::from(self.texels.height());
         if !(x.is_finite() && y.is_finite()) {
@@ -234,6 +234,7 @@ impl Kind for ColorImageMap {
             SCALE,
             ParamSpec::color("factor", [1.0; 3], "Linear factor of the colours, after inversion."),
             INVERT,
+            UV_SET,
             U_SCALE,
             V_SCALE,
             U_DELTA,
@@ -272,6 +273,7 @@ impl Kind for FloatImageMap {
                 "Which number to take; a is alpha, 1 if the image has none.",
             ),
             INVERT,
+            UV_SET,
             U_SCALE,
             V_SCALE,
             U_DELTA,
