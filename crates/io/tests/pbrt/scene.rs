@@ -201,7 +201,6 @@ fn objects_are_placed_by_their_instances() {
 #[test]
 fn copies_are_limited() {
     let numbers = "1 ".repeat(30_000);
-    let uses = "ObjectInstance \"o\"\n".repeat(10_000);
     let shapes = "Shape \"s\"\n".repeat(5_000);
     let uses = "ObjectInstance \"o\"\n".repeat(4_000);
     let found = complaints(&read(&format!("WorldBegin\nObjectBegin \"o\"\n{shapes}ObjectEnd\n{uses}")));
