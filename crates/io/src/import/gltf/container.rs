@@ -16,14 +16,20 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
 }
 
-/// Splits a `.glb` file; anything that does not begin with `glTF` is taken for JSON alone, whatever its suffix.
+/// Splits a `.glb` file; what does not begin with `glTF` but like JSON is JSON alone, whatever its suffix.
 ///
 /// # Errors
 /// Says what is wrong with the container.
 pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     if !bytes.starts_with(b"glTF") {
-        // glTF forbids a byte order mark, editors add it.
-        return Ok(Chunks { json: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), bin: None });
+        return match bytes.trim_ascii_start() {
+            [] => Err("the file is empty".to_owned()),
+            [b'{', ..] => Ok(Chunks { json: bytes, bin: None }),
+            [0xef, 0xbb, 0xbf, ..] => Err("a byte order mark stands before the JSON, which glTF forbids: \
+                                           save the file as UTF-8 without it"
+                .to_owned()),
+            _ => Err("no glTF file: a .glb begins with the letters glTF, a .gltf with a brace {".to_owned()),
+        };
     }
     let header = word(bytes, 4).zip(word(bytes, 8));
     let (version, length) = header.ok_or("GLB header: the file ends after the magic word")?;

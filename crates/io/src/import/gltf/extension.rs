@@ -19,9 +19,11 @@ const READ: &[&str] = &[
     "KHR_texture_transform",
 ];
 
-/// Not read; a scene that requires one is drawn without it, with a warning: geometry and textures are all there.
+/// Known to change nothing of a scene at rest: data about it, animations, other materials to choose from.
+const HARMLESS: &[&str] = &["KHR_animation_pointer", "KHR_materials_variants", "KHR_xmp", "KHR_xmp_json_ld"];
+
+/// Not read: materials look simpler. A scene that only uses one is drawn without it.
 const LOOKS_ONLY: &[&str] = &[
-    "KHR_animation_pointer",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_diffuse_transmission",
@@ -30,10 +32,7 @@ const LOOKS_ONLY: &[&str] = &[
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
-    "KHR_materials_variants",
     "KHR_materials_volume",
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
 ];
 
 /// Not read, and data is missing without them; with a way out.
@@ -47,14 +46,14 @@ const REFUSED: &[(&str, &str)] = &[
 ];
 
 fn known() -> impl Iterator<Item = &'static str> {
-    READ.iter().chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))
+    READ.iter().chain(HARMLESS).chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))
 }
 
 /// Refuses documents that require what we do not read; lists optional extensions that are ignored.
 pub(super) fn check(document: &Document<'_>) -> Checked<()> {
     let required = document.root.list("extensionsRequired")?;
     for element in &required {
-        document.keep(require(document, element));
+        document.keep(require(element));
     }
     let mut ignored = Vec::new();
     for element in document.root.list("extensionsUsed")? {
@@ -70,19 +69,18 @@ pub(super) fn check(document: &Document<'_>) -> Checked<()> {
     Ok(())
 }
 
-fn require(document: &Document<'_>, element: &Element<'_>) -> Checked<()> {
+fn require(element: &Element<'_>) -> Checked<()> {
     let name = element.text()?;
-    if READ.contains(&name) {
-        return Ok(());
-    }
-    if LOOKS_ONLY.contains(&name) {
-        document.warn(element, format!("the file requires {name}, which durer draws without so far"));
+    if READ.contains(&name) || HARMLESS.contains(&name) {
         return Ok(());
     }
     let mut fault =
         element.fault(format!("the file requires the extension {name}, which durer does not read"));
     fault.hint = Some(match REFUSED.iter().find(|(refused, _)| *refused == name) {
         Some((_, way_out)) => (*way_out).to_owned(),
+        None if LOOKS_ONLY.contains(&name) => {
+            "to see the scene without it, move it from extensionsRequired to extensionsUsed".to_owned()
+        }
         None => match nearest_word(name, known()) {
             Some(near) => format!("did you mean \"{near}\"?"),
             None => format!("export the scene without it; durer reads {}", READ.join(", ")),

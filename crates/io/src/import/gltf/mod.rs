@@ -113,7 +113,14 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
     }
     match asset.get("minVersion")? {
         Some(least) if least.text()? != "2.0" => {
-            Err(least.fault(format!("the file needs glTF {}, durer reads 2.0", least.text()?)))
+            let asked = least.text()?;
+            let message =
+                format!("the file asks for glTF {asked}; durer reads 2.0, what is newer is left out");
+            match asked.split_once('.') {
+                Some(("2", _)) => document.warn(&least, message),
+                _ => return Err(least.fault(message)),
+            }
+            Ok(())
         }
         _ => Ok(()),
     }

@@ -66,7 +66,8 @@ pub(super) fn load(
             all.extend(fresh.map(|m| (m, folder.to_owned())));
         }
     }
-    all.retain(|(m, _)| used.iter().any(|(name, _)| *name == m.name));
+    let names: HashSet<&str> = used.iter().map(|(name, _)| name.as_str()).collect();
+    all.retain(|(m, _)| names.contains(m.name.as_str()));
     let mut library = Library::default();
     let mut textures = Textures::load(&all, imported);
     for (made, folder) in &all {
