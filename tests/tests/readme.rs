@@ -1,8 +1,8 @@
 //! The README's commands work: each `sh` block is run, small, in an empty folder.
 //!
 //! `cargo run --release -- X` becomes `durer X` of the build under test. Pictures are made small unless the command says
-//! how large. Scenes that stand for a user's own are written beside it: `room.glb` and `room.pbrt`. Commands that would
-//! take too long or run this test again are listed in `NOT_RUN`.
+//! how large. Files that stand for a user's own are written beside it: `room.glb`, `room.pbrt`, `statue.ply.gz` and
+//! `sky.hdr`. Commands that would take too long or run this test again are listed in `NOT_RUN`.
 use std::{fs, process::Command};
 
 use durer_tests::program::{program, root};
@@ -12,6 +12,7 @@ use serde_json::json;
 const NOT_RUN: &[(&str, &str)] = &[
     ("cargo xtask test", "runs this test"),
     ("cargo xtask bench render", "takes long, and its times mean nothing beside other tests"),
+    ("cargo xtask assets", "takes a minute, and rewrites a page of the repository"),
 ];
 
 /// How the README starts the program.
@@ -114,6 +115,13 @@ fn glb() -> Vec<u8> {
     file
 }
 
+/// One triangle; the suffix says gzip, the contents decide.
+const STATUE: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// Two grey pixels all around.
+const SKY: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81";
+
 /// Files that a command promises: those after `-o`, and those whose paths `render` printed.
 fn promised(words: &[String], stdout: &str) -> Vec<String> {
     let named =
@@ -141,6 +149,8 @@ fn every_command_does_what_it_says() {
     fs::write(folder.path().join("room.glb"), glb()).expect("a file");
     fs::copy(root().join("crates/durer/scenes/whitted.pbrt"), folder.path().join("room.pbrt"))
         .expect("a file");
+    fs::write(folder.path().join("statue.ply.gz"), STATUE).expect("a file");
+    fs::write(folder.path().join("sky.hdr"), SKY).expect("a file");
     for Shown { command, prints } in &commands {
         if NOT_RUN.iter().any(|(not_run, _)| command == not_run) {
             continue;
