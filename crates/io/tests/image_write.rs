@@ -46,6 +46,8 @@ fn exr_channels_keep_their_exact_bits() {
         };
         write_exr(&path, &picture).expect("written");
         let bytes = std::fs::read(&path).expect("there");
+        write_exr(&path, &picture).expect("written again");
+        assert!(bytes == std::fs::read(&path).expect("there"), "the same picture gives the same bytes");
         let (w, h, channels) = read_exr_channels(&bytes, "out.exr", Limits::default()).expect("readable");
         assert_eq!((w, h), (width, height));
         let names: Vec<&str> = channels.iter().map(|c| c.name.as_str()).collect();

@@ -85,5 +85,31 @@ fn encode(path: &Path, picture: &ExrPicture) -> Result<Vec<u8>, WriteError> {
     let image: Image<Layer<AnyChannels<FlatSamples>>> = Image::new(attributes, layer);
     let mut bytes = Cursor::new(Vec::new());
     image.write().to_buffered(&mut bytes).map_err(|e| WriteError::new(path, e))?;
-    Ok(bytes.into_inner())
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    Ok(bytes)
+}
+
+/// Puts the header's attributes in the order of their names: the library writes ours as its hash map has them, and no
+/// two files would be the same. A header is `name 0 type 0 length value` for each attribute, then 0 ("OpenEXR File
+/// Layout").
+fn sort_attributes(file: &mut [u8]) {
+    const START: usize = 8;
+    let mut attributes = Vec::new();
+    let mut rest = file.get(START..).unwrap_or_default();
+    while rest.first().is_some_and(|&b| b != 0) {
+        let ends = |from: usize| rest.get(from..)?.iter().position(|&b| b == 0).map(|at| from + at + 1);
+        let whole = ends(0).and_then(&ends).and_then(|at| {
+            let length = u32::from_le_bytes(*rest.get(at..)?.first_chunk()?);
+            rest.split_at_checked(at + 4 + length as usize)
+        });
+        let Some((attribute, after)) = whole else { return };
+        attributes.push(attribute.to_vec());
+        rest = after;
+    }
+    attributes.sort();
+    let sorted = attributes.concat();
+    if let Some(header) = file.get_mut(START..START + sorted.len()) {
+        header.copy_from_slice(&sorted);
+    }
 }
