@@ -44,10 +44,10 @@ pub(crate) struct SceneOptions {
 #[command(next_help_heading = "Film")]
 pub(crate) struct FilmOptions {
     /// Pixels per row; alone it keeps the scene's aspect ratio [default: the scene's, else 1280].
-    #[arg(long, value_name = "N", value_parser = whole(1..=65536), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=65536), allow_negative_numbers = true)]
     width: Option<u32>,
     /// Rows [default: the scene's, else 720].
-    #[arg(long, value_name = "N", value_parser = whole(1..=65536), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=65536), allow_negative_numbers = true)]
     height: Option<u32>,
     /// Factor on width and height.
     #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
@@ -74,7 +74,7 @@ pub(crate) struct TransportOptions {
     #[arg(long, value_name = "WHAT", value_parser = show())]
     show: Option<Show>,
     /// Bounces traced at most; 0 leaves eye and shadow rays [default: the scene's, else 10].
-    #[arg(long, value_name = "N", value_parser = whole(0..=1000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(0u32..=1000), allow_negative_numbers = true)]
     max_depth: Option<u32>,
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]

@@ -64,7 +64,7 @@ pub(crate) struct Args {
     #[arg(default_missing_value = "text", help_heading = "Running")]
     stats: Option<StatsForm>,
     /// Worker threads [default: all cores]. The picture does not depend on their number.
-    #[arg(long, value_name = "N", value_parser = whole(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=4096))]
     #[arg(allow_negative_numbers = true, help_heading = "Running")]
     threads: Option<u32>,
     #[command(flatten)]
