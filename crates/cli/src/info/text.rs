@@ -48,7 +48,7 @@ pub(super) fn table(info: &Info<'_>, imported: &Imported, detail: Detail) -> Str
     row("format", vec![info.format.unwrap_or("unknown").to_owned()]);
     row("shapes", vec![shapes(&info.counts, &imported.desc)]);
     row("triangles", triangles(&info.counts));
-    row("bounds", info.bounds.iter().map(bounds).collect());
+    row("bounds", info.bounds.iter().map(|b| bounds(b, largest(info))).collect());
     row("textures", textures(&info.textures, detail));
     row("cameras", cameras(info, detail));
     row("lights", vec![names(&info.lights, detail)]);
@@ -120,10 +120,10 @@ fn triangles(c: &Counts) -> Vec<String> {
     }
 }
 
-fn bounds(b: &WorldBounds) -> String {
+fn bounds(b: &WorldBounds, largest: f64) -> String {
     let size: [f64; 3] = std::array::from_fn(|i| b.max[i] - b.min[i]);
     let size = size.map(|v| significant(v as f32, 4)).join(" x ");
-    format!("from {} to {}, size {size} (metres)", place(b.min), place(b.max))
+    format!("from {} to {}, size {size} (metres)", place(b.min, largest), place(b.max, largest))
 }
 
 /// An image or texture a line, with how many textures are the same but for their names.
@@ -152,19 +152,20 @@ fn textures(list: &[TextureFacts<'_>], detail: Detail) -> Vec<String> {
 
 fn cameras(info: &Info<'_>, detail: Detail) -> Vec<String> {
     if let ([], Some((position, ahead))) = (info.cameras.as_slice(), info.view) {
-        let (at, along) = (place(position), direction(ahead));
+        let (at, along) = (place(position, largest(info)), direction(ahead));
         return vec![format!("none; an automatic one frames everything, at {at}, looking along {along}")];
     }
-    let lines = info.cameras.iter().enumerate().map(|(index, camera)| one_camera(index, camera));
+    let lines =
+        info.cameras.iter().enumerate().map(|(index, camera)| one_camera(index, camera, largest(info)));
     headed(info.cameras.len().to_string(), lines.collect(), detail)
 }
 
-fn one_camera(index: usize, camera: &CameraFacts<'_>) -> String {
+fn one_camera(index: usize, camera: &CameraFacts<'_>, largest: f64) -> String {
     let mut line = format!("{index}  ");
     if !camera.name.is_empty() {
         let _ = write!(line, "{}, ", camera.name);
     }
-    let (at, along) = (place(camera.position), direction(camera.direction));
+    let (at, along) = (place(camera.position, largest), direction(camera.direction));
     let _ = write!(line, "{}, at {at}, looking along {along}", camera.kind);
     if let (Some(fov), Some(axis)) = (camera.fov, camera.fov_axis) {
         let axis = match axis {
@@ -283,17 +284,21 @@ fn diagnostics(c: &Complaints) -> String {
     if parts.is_empty() { "none: nothing odd was found".to_owned() } else { parts.join(", ") }
 }
 
-/// A point; what is rounding beside its largest coordinate is 0.
-fn place(p: [f64; 3]) -> String {
-    rounded(p, 6)
+/// A point of a scene whose coordinates are so large at most: what is finer is rounding.
+fn place(p: [f64; 3], largest: f64) -> String {
+    let step = 10f64.powi(largest.max(f64::MIN_POSITIVE).log10().floor() as i32 - 5);
+    // Adding 0 makes a positive zero of a negative one.
+    p.map(|v| significant(((v / step).round() * step + 0.0) as f32, 6)).join(" ")
 }
 
 /// A unit vector.
 fn direction(d: [f64; 3]) -> String {
-    rounded(d, 3)
+    d.map(|v| significant(((v * 1e4).round() / 1e4 + 0.0) as f32, 3)).join(" ")
 }
 
-fn rounded(v: [f64; 3], digits: usize) -> String {
-    let least = 1e-6 * v.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-    v.map(|x| significant(if x.abs() <= least { 0.0 } else { x as f32 }, digits)).join(" ")
+/// The largest coordinate of anything.
+fn largest(info: &Info<'_>) -> f64 {
+    let corners = info.bounds.iter().flat_map(|b| [b.min, b.max]);
+    let cameras = info.cameras.iter().map(|c| c.position).chain(info.view.map(|(at, _)| at));
+    corners.chain(cameras).flatten().fold(0.0, |most, v| most.max(v.abs()))
 }

@@ -1,27 +1,40 @@
 //! What `durer info` prints for people.
 use crate::run::Place;
 
-/// A strip of forty triangles and one without area, drawn with a texture; its image is used twice.
+/// A strip of forty triangles and one without area, with a texture, as `x.gltf`.
 fn place() -> Place {
-    let mut obj = String::from("mtllib x.mtl\nusemtl both\n");
-    (0..42).for_each(|i| obj.push_str(&format!("v {i} {} 0\n", i % 2)));
-    obj.push_str("vt 0 0\n");
-    (1..=40).for_each(|i| obj.push_str(&format!("f {i}/1 {}/1 {}/1\n", i + 1, i + 2)));
-    obj.push_str("f 1/1 2/1 2/1\n");
-    let place =
-        Place::new().with("x.obj", &obj).with("x.mtl", "newmtl both\nmap_Kd dot.png\nmap_Ke dot.png\n");
+    let json = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [{"doubleSided": true, 
+            "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "dot.png"}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 42, "type": "VEC3", "min": [0, 0, 0], "max": [41, 1, 0]},
+            {"bufferView": 1, "componentType": 5126, "count": 42, "type": "VEC2"},
+            {"bufferView": 2, "componentType": 5125, "count": 123, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 504}, {"buffer": 0, "byteOffset": 504, "byteLength": 336},
+            {"buffer": 0, "byteOffset": 840, "byteLength": 492}],
+        "buffers": [{"byteLength": 1332, "uri": "x.bin"}]}"#;
+    let points = (0..42u8).flat_map(|i| [f32::from(i), f32::from(i % 2), 0.0]);
+    let triangles = (0..40u32).flat_map(|i| [i, i + 1, i + 2]).chain([0, 1, 1]);
+    let mut bytes: Vec<u8> = points.chain([0.0; 84]).flat_map(f32::to_le_bytes).collect();
+    bytes.extend(triangles.flat_map(u32::to_le_bytes));
+    let place = Place::new().with("x.gltf", json);
+    std::fs::write(place.path("x.bin"), bytes).expect("a file");
     place.done("render whitted --width 3 --height 2 --spp 1 -o dot.png");
     place
 }
 
-/// A scene that says everything about its picture, with two textures and two kinds of shapes.
+/// A scene that says everything about its picture, with textures and two kinds of shapes.
 const SAID: &str = r#"
 Film "rgb" "integer xresolution" 32 "integer yresolution" 24
 LookAt 0 0 -4  0 0 0  0 1 0
 Camera "perspective" "float fov" 60
 WorldBegin
 LightSource "infinite"
-Texture "a" "spectrum" "checkerboard"
+Texture "a" "spectrum" "imagemap" "string filename" "dot.png"
+Texture "b" "spectrum" "imagemap" "string filename" "dot.png"
+Texture "c" "spectrum" "checkerboard"
 Shape "disk"
 Shape "sphere"
 "#;
@@ -37,16 +50,16 @@ fn row<'a>(table: &'a str, name: &str) -> Vec<&'a str> {
 #[test]
 fn rows_say_what_there_is_and_leave_out_what_there_is_not() {
     let place = place().with("said.pbrt", SAID);
-    let table = place.done("info x.obj").stdout;
+    let table = place.done("info x.gltf").stdout;
     assert_eq!(row(&table, "shapes"), ["1 mesh"]);
     assert_eq!(row(&table, "triangles"), ["41, with 42 vertices"]);
-    assert_eq!(row(&table, "textures"), ["2, 1 image", "dot.png, 3 x 2 pixels, in 2 textures"]);
+    assert_eq!(row(&table, "textures"), ["1, 1 image", "dot.png, 3 x 2 pixels"]);
     assert!(row(&table, "cameras")[0].starts_with("none; an automatic one"), "{table}");
     assert_eq!(row(&table, "picture"), ["1280 x 720 pixels by default, 64 samples per pixel by default"]);
     assert_eq!(row(&table, "integrator"), ["whitted by default"]);
     assert_eq!(row(&table, "bounds"), ["from 0 0 0 to 41 1 0, size 41 x 1 x 0 (metres)"]);
     assert!(!table.contains("hierarchy") && !table.contains("node"), "{table}");
-    assert!(place.done("info x.obj -v").stdout.contains("hierarchy"), "{table}");
+    assert!(place.done("info x.gltf -v").stdout.contains("hierarchy"), "{table}");
 
     let table = place.done("info said.pbrt").stdout;
     assert_eq!(row(&table, "shapes"), ["2 shapes without mesh (disk, sphere)"]);
@@ -60,12 +73,12 @@ fn rows_say_what_there_is_and_leave_out_what_there_is_not() {
 #[test]
 fn the_number_of_diagnostics_is_that_of_those_listed_and_none_is_said_twice() {
     let place = place();
-    let table = place.done("info x.obj").stdout;
+    let table = place.done("info x.gltf").stdout;
     let listed = |word: &str| table.lines().filter(|line| line.starts_with(word)).count();
     assert_eq!(row(&table, "diagnostics"), ["3 notes"], "{table}");
     assert_eq!((listed("error: "), listed("warning: "), listed("note: ")), (0, 0, 3), "{table}");
     assert!(table.contains("note: 1 triangle has no area, so nothing can hit it: harmless"), "{table}");
-    let json = place.done("info x.obj --json").json();
+    let json = place.done("info x.gltf --json").json();
     assert_eq!(json["complaints"]["notes"], 3);
     assert_eq!(json["diagnostics"].as_array().map(Vec::len), Some(3));
     assert_eq!(json["doctor"].as_array().map(Vec::len), Some(1));
@@ -73,9 +86,9 @@ fn the_number_of_diagnostics_is_that_of_those_listed_and_none_is_said_twice() {
 
 #[test]
 fn only_a_camera_of_the_file_can_stand_inside_something() {
-    let ball = "WorldBegin\nReverseOrientation\nShape \"sphere\"\n";
-    let place =
-        Place::new().with("free.pbrt", ball).with("within.pbrt", &format!("Camera \"perspective\"\n{ball}"));
+    let place = Place::new()
+        .with("free.pbrt", "WorldBegin\nReverseOrientation\nShape \"sphere\"\n")
+        .with("within.pbrt", "Camera \"perspective\"\nWorldBegin\nShape \"sphere\"\n");
     assert!(place.done("info within.pbrt").stdout.contains("warning: 100 % of what the camera sees"));
     assert!(!place.done("info free.pbrt").stdout.contains("from its inside"));
 }
