@@ -11,7 +11,7 @@ use crate::{
     exit::{Exit, WrongUsage, emit, emit_json, tell},
     interrupt::Interrupt,
     load::load,
-    number::significant,
+    number::{counted, significant},
     options::{SampleOptions, TalkOptions},
     output::{Destination, destinations},
     picture::{Look, Picture},
@@ -139,7 +139,9 @@ impl Args {
         let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
         let cancel = interrupt.rendering();
         if self.talk.verbose {
-            tell(&format!("rendering {pixels} pixels on {} threads", prepared.settings.threads));
+            let pixels = counted(pixels, "pixel", "pixels");
+            let threads = counted(prepared.settings.threads as u64, "thread", "threads");
+            tell(&format!("rendering {pixels} on {threads}"));
         }
         let rendered = prepared.job().render(gather, &bar, cancel);
         bar.finish();

@@ -71,7 +71,7 @@ fn shapes(c: &Counts, desc: &SceneDesc) -> String {
     let different = c.meshes_different.unwrap_or(placed);
     let mut kinds = Vec::new();
     if placed > different {
-        kinds.push(format!("{} placed {} times", counted(different, "mesh", "meshes"), count(placed)));
+        kinds.push(format!("{} placements of {}", count(placed), counted(different, "mesh", "meshes")));
     } else if placed > 0 {
         kinds.push(counted(placed, "mesh", "meshes"));
     }

@@ -68,6 +68,12 @@ fn rows_say_what_there_is_and_leave_out_what_there_is_not() {
     assert_eq!(row(&table, "cameras"), ["1", camera]);
     assert_eq!(row(&table, "picture"), ["32 x 24 pixels, 64 samples per pixel by default"]);
     assert!(!table.contains("triangles"), "{table}");
+
+    let twice = "WorldBegin\nObjectBegin \"a\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \
+                 \"integer indices\" [0 1 2]\nObjectEnd\nObjectInstance \"a\"\nTranslate 2 0 0\nObjectInstance \"a\"\n";
+    let table = place.with("twice.pbrt", twice).done("info twice.pbrt").stdout;
+    assert_eq!(row(&table, "shapes"), ["2 placements of 1 mesh"]);
+    assert_eq!(row(&table, "triangles"), ["2 as placed; 1 as stored, with 3 vertices"]);
 }
 
 #[test]
