@@ -114,12 +114,16 @@ fn many_textures_are_counted_after_the_first_twenty() {
 fn what_a_picture_lacks_is_said_when_it_is_rendered() {
     let gltf = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_clearcoat", "KHR_xmp"],
         "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+            "samplers": [{"input": 1, "output": 0}]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [1]}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
     let place = Place::new().with("x.gltf", gltf);
     let said = place.done("render x.gltf --width 8 --spp 1").stderr;
     assert!(said.contains("warning: ") && said.contains("KHR_materials_clearcoat"), "{said}");
+    assert!(said.contains("1 animation is not played"), "{said}");
     assert!(!said.contains("KHR_xmp"), "metadata is no loss: {said}");
 }
