@@ -1,29 +1,32 @@
 //! `durer info`: what is in a scene, what it costs, and what is odd about it.
 
+mod camera;
 mod doctor;
 mod facts;
 mod memory;
 mod text;
 mod texture;
 
-use durer::scene::Missing;
+use durer::scene::{Location, Missing, Severity};
 
 use crate::{
     exit::{Exit, emit, emit_json, harmless},
-    load::load,
+    load::{Loaded, load},
     options::{SceneOptions, TalkOptions},
     report,
 };
 use facts::Info;
+use text::Detail;
 
 const EXAMPLES: &str = "\
 Examples:
   durer info room.glb
+  durer info room.glb -v
   durer info room.glb --json | jq .counts
 
 JSON: an object with version 1; scene, format, counts, bounds, cameras, lights,
-materials, textures, film, integrator, memory, seconds, doctor, complaints,
-diagnostics. What could not be found out because of errors is null. Within a
+materials, textures, film, integrator, render, memory, seconds, doctor,
+complaints, diagnostics. What could not be found out because of errors is null. Within a
 version keys may be added, none renamed.";
 
 /// Tells what is in a scene: counts, bounds, names, memory, complaints.
@@ -35,21 +38,40 @@ pub(crate) struct Args {
     /// As JSON.
     #[arg(long)]
     json: bool,
+    /// All names, and what the acceleration structure holds.
+    #[arg(long, short)]
+    verbose: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     // A library of materials has nothing to draw, but can be looked into.
     let wishes = durer::Options { nothing: Missing::Warn, ..args.scene.wishes() };
-    let loaded = load(&args.scene.scene, &wishes);
+    let mut loaded = load(&args.scene.scene, &wishes);
     let failed = loaded.prepared.is_none();
     if failed {
         report::print(&args.scene.scene, &loaded.imported, &TalkOptions { quiet: false, verbose: true });
     }
-    let info = Info::new(&args.scene.scene, &loaded);
+    let doctor = examine(&mut loaded);
+    let info = Info::new(&args.scene, &loaded, &doctor);
     if args.json {
         emit_json(&info)?;
     } else if !failed {
-        emit(&harmless(&text::table(&info, &loaded.imported)))?;
+        let detail = if args.verbose { Detail::Full } else { Detail::Brief };
+        emit(&harmless(&text::table(&info, &loaded.imported, detail)))?;
     }
-    Ok(if failed { Exit::Failed } else { Exit::Done })
+    Ok(if failed { loaded.failure } else { Exit::Done })
+}
+
+/// Puts what the scene doctor finds among the diagnostics; returns his sentences.
+fn examine(loaded: &mut Loaded) -> Vec<String> {
+    let Some(prepared) = &loaded.prepared else { return Vec::new() };
+    let found = doctor::findings(&loaded.imported.desc, prepared);
+    let diagnostics = &mut loaded.imported.diagnostics;
+    for (severity, message) in &found {
+        match severity {
+            Severity::Note => diagnostics.note(Location::None, message),
+            Severity::Warning | Severity::Error => diagnostics.warning(Location::None, message),
+        };
+    }
+    found.into_iter().map(|(_, message)| message).collect()
 }

@@ -19,6 +19,8 @@ mod report;
 mod scenes;
 mod stats;
 mod trace;
+mod usage;
+mod value;
 
 use std::process::ExitCode;
 
@@ -33,11 +35,16 @@ Examples:
   durer trace room.glb --pixel 320,240    why that pixel has its colour, ray by ray
   durer info room.glb                     what is in the file, and what is odd about it
 
-Exit status: 0 done; 1 failed (bad scene, unwritable file); 2 wrong usage; 130 interrupted.";
+Exit status:
+  0    done
+  1    failed: a scene that cannot be read, a file that cannot be written
+  2    wrong usage: an unknown word, or a value that an option does not take or this
+       scene does not have (--camera, --pixel, --sample, --crop)
+  130  interrupted from the keyboard";
 
 /// A ray tracer that lets you look inside.
 #[derive(Parser)]
-#[command(name = "durer", version, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(name = "durer", version, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -54,7 +61,15 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    let words: Vec<_> = std::env::args_os().collect();
+    let cli = match Cli::try_parse_from(&words) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let words: Vec<String> = words.iter().map(|w| w.to_string_lossy().into_owned()).collect();
+            return usage::explain(&error, &words);
+        }
+    };
+    let done = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Info(args) => info::run(&args),

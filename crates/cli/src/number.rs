@@ -46,6 +46,11 @@ pub(crate) fn count(n: u64) -> String {
     }
 }
 
+/// `1 mesh`, `2 meshes`.
+pub(crate) fn counted(n: u64, one: &str, many: &str) -> String {
+    format!("{} {}", count(n), if n == 1 { one } else { many })
+}
+
 /// `1.2 MiB`.
 pub(crate) fn bytes(n: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];

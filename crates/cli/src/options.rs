@@ -1,5 +1,5 @@
 //! Options that several commands share, what they mean to the library, and how to say them again.
-use std::{path::PathBuf, str::FromStr};
+use std::path::PathBuf;
 
 use clap::{
     Args,
@@ -8,6 +8,8 @@ use clap::{
 use durer::{
     Options, Show, accel::Engine, film::Tile, integrator::INTEGRATORS, math::Interval, scene::Missing,
 };
+
+use crate::value::{crop, finite, fraction, positive, shutter, whole};
 
 /// Words of `--accel`, with the engine each names.
 const ENGINES: [(&str, Engine); 2] = [("bvh", Engine::Bvh), ("none", Engine::BruteForce)];
@@ -20,7 +22,7 @@ pub(crate) struct SceneOptions {
     #[arg(default_value = "whitted", help_heading = None)]
     pub(crate) scene: String,
     /// Camera, by name or index [default: the first, or one that frames everything].
-    #[arg(long, value_name = "NAME_OR_INDEX")]
+    #[arg(long, value_name = "NAME_OR_INDEX", allow_negative_numbers = true)]
     camera: Option<String>,
     /// A picture that surrounds the scene and lights it instead of its own sky: EXR, HDR, PFM, PNG or JPEG, twice as
     /// wide as high or, as pbrt-v4 has it, square. Its top is +y, its middle +x.
@@ -42,22 +44,22 @@ pub(crate) struct SceneOptions {
 #[command(next_help_heading = "Film")]
 pub(crate) struct FilmOptions {
     /// Pixels per row; alone it keeps the scene's aspect ratio [default: the scene's, else 1280].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=65536), allow_negative_numbers = true)]
     width: Option<u32>,
     /// Rows [default: the scene's, else 720].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=65536), allow_negative_numbers = true)]
     height: Option<u32>,
     /// Factor on width and height.
-    #[arg(long, value_name = "F", value_parser = positive)]
+    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
     scale: Option<f32>,
     /// Samples per pixel [default: the scene's, else 64; data pictures 1].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, alias = "samples", value_name = "N", value_parser = whole(1..=u32::MAX), allow_negative_numbers = true)]
     spp: Option<u32>,
     /// The part to render, in pixels from the upper left corner; the rest stays black.
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop)]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Tile>,
     /// Changes every random number [default: 0].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0..=u64::MAX), allow_negative_numbers = true)]
     seed: Option<u64>,
 }
 
@@ -72,10 +74,10 @@ pub(crate) struct TransportOptions {
     #[arg(long, value_name = "WHAT", value_parser = show())]
     show: Option<Show>,
     /// Bounces traced at most; 0 leaves eye and shadow rays [default: the scene's, else 10].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1000))]
+    #[arg(long, value_name = "N", value_parser = whole(0u32..=1000), allow_negative_numbers = true)]
     max_depth: Option<u32>,
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].
-    #[arg(long, value_name = "F", value_parser = fraction)]
+    #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     min_contribution: Option<f32>,
     /// How hits are found: a hierarchy of boxes, or every primitive with every ray.
     #[arg(long, value_name = "HOW", default_value = "bvh", hide_default_value = true, value_parser = engine())]
@@ -198,52 +200,9 @@ fn engine() -> impl TypedValueParser<Value = Engine> {
         .try_map(|word| ENGINES.iter().find(|(w, _)| *w == word).map(|(_, engine)| *engine).ok_or("unknown"))
 }
 
-/// Numbers with commas between.
-pub(crate) fn numbers<T: FromStr, const N: usize>(text: &str, form: &str) -> Result<[T; N], String> {
-    let list: Option<Vec<T>> = text.split(',').map(|v| v.trim().parse().ok()).collect();
-    list.and_then(|l| l.try_into().ok()).ok_or_else(|| format!("expected {form}"))
-}
-
-fn crop(text: &str) -> Result<Tile, String> {
-    let [x0, y0, x1, y1] = numbers(text, "X0,Y0,X1,Y1: four whole numbers of pixels")?;
-    if x0 >= x1 || y0 >= y1 {
-        return Err("holds no pixel: X0 must be less than X1, and Y0 less than Y1".to_owned());
-    }
-    Ok(Tile { x0, y0, x1, y1 })
-}
-
-fn shutter(text: &str) -> Result<Interval, String> {
-    let [open, close]: [f32; 2] = numbers(text, "OPEN,CLOSE: two numbers of seconds")?;
-    if !open.is_finite() || !close.is_finite() || open > close {
-        return Err("must open before it closes".to_owned());
-    }
-    Ok(Interval::new(open, close))
-}
-
-/// A number that is neither infinite nor NaN.
-pub(crate) fn finite(text: &str) -> Result<f32, String> {
-    text.parse().ok().filter(|v: &f32| v.is_finite()).ok_or_else(|| "expected a number".to_owned())
-}
-
-fn positive(text: &str) -> Result<f32, String> {
-    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
-}
-
-fn fraction(text: &str) -> Result<f32, String> {
-    let inside = finite(text).ok().filter(|v| (0.0..=1.0).contains(v));
-    inside.ok_or_else(|| "expected a number from 0 to 1".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lists_need_the_right_length() {
-        assert_eq!(numbers::<u32, 2>("3, 4", ""), Ok([3, 4]));
-        assert!(numbers::<u32, 2>("3", "").is_err() && numbers::<u32, 2>("3,4,5", "").is_err());
-        assert!(crop("4,0,4,9").is_err() && shutter("1,0").is_err() && shutter("nan,1").is_err());
-    }
 
     #[test]
     fn odd_words_are_quoted() {

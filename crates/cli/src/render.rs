@@ -2,19 +2,23 @@
 use std::{path::PathBuf, time::Instant};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use durer::{Gather, Output, Prepared, Rendered, film::ToneMap};
+use durer::{
+    Gather, Output, Prepared, Rendered,
+    film::{Tile, ToneMap},
+};
 
 use crate::{
     exit::{Exit, WrongUsage, emit, emit_json, tell},
     interrupt::Interrupt,
     load::load,
-    number::significant,
-    options::{SampleOptions, TalkOptions, finite},
+    number::{counted, significant},
+    options::{SampleOptions, TalkOptions},
     output::{Destination, destinations},
     picture::{Look, Picture},
     progress::Bar,
     report,
     stats::{Facts, Seconds, Stats, StatsForm},
+    value::{finite, whole},
 };
 
 const EXAMPLES: &str = "\
@@ -60,8 +64,8 @@ pub(crate) struct Args {
     #[arg(default_missing_value = "text", help_heading = "Running")]
     stats: Option<StatsForm>,
     /// Worker threads [default: all cores]. The picture does not depend on their number.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
-    #[arg(help_heading = "Running")]
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=4096))]
+    #[arg(allow_negative_numbers = true, help_heading = "Running")]
     threads: Option<u32>,
     #[command(flatten)]
     talk: TalkOptions,
@@ -79,9 +83,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let loaded = load(scene, &wishes);
     report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
-        return Ok(Exit::Failed);
+        return Ok(loaded.failure);
     };
-    check_crop(prepared)?;
+    args.check_crop(prepared)?;
     args.warn_about_looks(prepared);
 
     let start = Instant::now();
@@ -108,17 +112,26 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     })
 }
 
-/// A crop that misses the picture is a slip: it would give a black one.
-fn check_crop(prepared: &Prepared) -> Result<(), WrongUsage> {
-    let view = &prepared.scene.view;
-    if prepared.settings.window(view.width, view.height).area() > 0 {
-        return Ok(());
-    }
-    let size = format!("{} x {}", view.width, view.height);
-    Err(WrongUsage(format!("--crop lies outside the picture of {size} pixels")))
-}
-
 impl Args {
+    /// A crop that misses the picture is a slip: it would give a black one. One that reaches beyond may be one.
+    fn check_crop(&self, prepared: &Prepared) -> Result<(), WrongUsage> {
+        let view = &prepared.scene.view;
+        let Some(asked) = prepared.settings.crop else { return Ok(()) };
+        let window = prepared.settings.window(view.width, view.height);
+        let size = format!("{} x {}", view.width, view.height);
+        if window.area() == 0 {
+            return Err(WrongUsage(format!("--crop lies outside the picture of {size} pixels")));
+        }
+        if window != asked && !self.talk.quiet {
+            let edges = |t: Tile| format!("{},{},{},{}", t.x0, t.y0, t.x1, t.y1);
+            let (asked, window) = (edges(asked), edges(window));
+            tell(&format!(
+                "warning: --crop {asked} reaches beyond the picture of {size} pixels: {window} is rendered"
+            ));
+        }
+        Ok(())
+    }
+
     fn render(&self, prepared: &Prepared, interrupt: &Interrupt) -> Rendered {
         let view = &prepared.scene.view;
         let pixels = prepared.settings.window(view.width, view.height).area();
@@ -126,7 +139,9 @@ impl Args {
         let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
         let cancel = interrupt.rendering();
         if self.talk.verbose {
-            tell(&format!("rendering {pixels} pixels on {} threads", prepared.settings.threads));
+            let pixels = counted(pixels, "pixel", "pixels");
+            let threads = counted(prepared.settings.threads as u64, "thread", "threads");
+            tell(&format!("rendering {pixels} on {threads}"));
         }
         let rendered = prepared.job().render(gather, &bar, cancel);
         bar.finish();

@@ -73,7 +73,7 @@ fn one(scene: &str, diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks
     let (message, hint) = (harmless(message), hint.as_deref().map(harmless));
     let place = match at {
         Location::Span(span) => match excerpt(diagnostic, *span, texts, looks) {
-            Some(excerpt) => return format!("{header} {message}\n{excerpt}"),
+            Some(excerpt) => return format!("{header} {message}\n{excerpt}{}", help(hint.as_deref())),
             None => texts.sources.name(span.source).to_owned(),
         },
         Location::Path { file, pointer } if pointer.is_empty() => file.clone(),
@@ -87,8 +87,12 @@ fn one(scene: &str, diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks
         true => String::new(),
         false => format!("{}: ", harmless(&place)),
     };
-    let hint = hint.as_ref().map(|h| format!("  help: {h}\n")).unwrap_or_default();
-    format!("{header} {place}{message}\n{hint}")
+    format!("{header} {place}{message}\n{}", help(hint.as_deref()))
+}
+
+/// What to do, as everywhere on a line of its own.
+fn help(hint: Option<&str>) -> String {
+    hint.map(|hint| format!("  help: {hint}\n")).unwrap_or_default()
 }
 
 fn header(severity: Severity, looks: Looks) -> String {
@@ -116,10 +120,7 @@ fn excerpt(diagnostic: &Diagnostic, span: Span, texts: &mut Texts<'_>, looks: Lo
         .with_char_set(if looks.terminal { CharSet::Unicode } else { CharSet::Ascii })
         .with_index_type(IndexType::Byte);
     let label = Label::new(at.clone()).with_message("here").with_color(color(diagnostic.severity));
-    let mut report = Report::build(ReportKind::Error, at).with_config(config).with_label(label);
-    if let Some(hint) = &diagnostic.hint {
-        report.set_help(harmless(hint));
-    }
+    let report = Report::build(ReportKind::Error, at).with_config(config).with_label(label);
     let mut bytes = Vec::new();
     report.finish().write(texts, &mut bytes).ok()?;
     // The first line is ariadne's header without message; ours has a colour on terminals only.

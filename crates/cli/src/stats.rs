@@ -9,7 +9,7 @@ use durer::{
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::number::{bytes, count, seconds};
+use crate::number::{bytes, count, counted, seconds};
 
 /// How statistics are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -188,7 +188,7 @@ impl<'a> Stats<'a> {
         for (reason, n) in &self.stops {
             row(&format!("stops, {reason}"), count(n.as_u64().unwrap_or(0)));
         }
-        row("deepest ray", format!("{} bounces", self.max_depth));
+        row("deepest ray", counted(self.max_depth.into(), "bounce", "bounces"));
         row("box tests per ray", format!("{:.2}", self.tests.boxes_per_ray));
         row("primitive tests per ray", format!("{:.2}", self.tests.primitives_per_ray));
         row("triangles", count(self.build.triangles));

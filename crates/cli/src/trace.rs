@@ -14,9 +14,10 @@ use durer::{Prepared, film::Pixel, probe::RayTree};
 use crate::{
     exit::{Exit, WrongUsage, emit, emit_json, harmless, tell},
     load::load,
-    options::{SampleOptions, TalkOptions, numbers},
+    options::{SampleOptions, TalkOptions},
     output::check_writable,
     report,
+    value::{pixel, whole},
 };
 
 const EXAMPLES: &str = "\
@@ -49,10 +50,11 @@ pub(crate) struct Args {
     #[command(flatten)]
     sample_options: SampleOptions,
     /// Which pixel; 0,0 is the upper left one.
-    #[arg(long, value_name = "X,Y", value_parser = pixel, help_heading = "Ray tree")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, help_heading = "Ray tree")]
     pixel: [u32; 2],
     /// Which of its samples.
-    #[arg(long, value_name = "K", default_value_t = 0, help_heading = "Ray tree")]
+    #[arg(long, value_name = "K", value_parser = whole(0..=u32::MAX), allow_negative_numbers = true)]
+    #[arg(default_value_t = 0, help_heading = "Ray tree")]
     sample: u32,
     /// The tree as JSON on stdout.
     #[arg(long, help_heading = "Ray tree")]
@@ -62,10 +64,6 @@ pub(crate) struct Args {
     output: Option<PathBuf>,
     #[command(flatten)]
     talk: TalkOptions,
-}
-
-fn pixel(text: &str) -> Result<[u32; 2], String> {
-    numbers(text, "X,Y: two whole numbers of pixels")
 }
 
 /// A recorded sample and what its numbers refer to.
@@ -86,7 +84,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let loaded = load(scene, &args.sample_options.wishes());
     report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
-        return Ok(Exit::Failed);
+        return Ok(loaded.failure);
     };
     args.check_range(prepared)?;
 
@@ -117,8 +115,8 @@ fn as_film(value: [f32; 3]) -> [f32; 3] {
 
 fn check_output(path: &Path) -> anyhow::Result<()> {
     let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase());
-    if suffix.as_deref() != Some("json") {
-        let message = format!("{}: trees are written as .json", path.display());
+    if suffix.as_deref() != Some("json") && !path.is_dir() {
+        let message = format!("{}: trees are written as JSON\n  help: end the name in .json", path.display());
         return Err(WrongUsage(message).into());
     }
     check_writable(path)

@@ -4,37 +4,43 @@ use durer::{
     drive::Job,
     integrator::Cast,
     math::Point3,
-    scene::{Mesh, SceneDesc, ShapeSource},
+    scene::{Mesh, SceneDesc, Severity, ShapeSource},
 };
+
+use crate::number::counted;
 
 /// Eye rays sent per row and column to see what the camera sees.
 const LOOKS: [u32; 2] = [24, 16];
 
-/// What is odd, a sentence each.
-pub(super) fn findings(desc: &SceneDesc, prepared: &Prepared) -> Vec<String> {
+/// Up to this share of triangles without area is what modellers leave behind.
+const HARMLESS_SHARE: f64 = 0.05;
+
+/// Something odd, in a sentence.
+pub(super) type Finding = (Severity, String);
+
+/// What is odd and was not said before.
+pub(super) fn findings(desc: &SceneDesc, prepared: &Prepared) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut check = |odd: bool, what: &str| {
-        if odd {
-            found.push(what.to_owned());
-        }
-    };
-    check(desc.shapes.is_empty(), "the scene has no shapes");
-    check(desc.cameras.is_empty(), "the scene has no camera: one that frames everything is used");
-    check(desc.lights.is_empty(), "the scene has no light: a neutral studio light is used");
-    let plain = desc.shapes.iter().filter(|s| s.material.is_none()).count();
-    check(plain > 0, &format!("shapes without material, shown as grey matte: {plain}"));
-    let flat: usize = desc.meshes.iter().map(|m| flat_triangles(m)).sum();
-    check(flat > 0, &format!("triangles without area, which nothing can hit: {flat}"));
+    let plain = desc.shapes.iter().filter(|s| s.material.is_none()).count() as u64;
+    if plain > 0 {
+        let (shapes, verb) = (counted(plain, "shape", "shapes"), if plain == 1 { "has" } else { "have" });
+        found.push((Severity::Note, format!("{shapes} {verb} no material: drawn as grey matte")));
+    }
+    found.extend(flat_triangles(desc));
     let idle = unused_meshes(desc);
-    check(idle > 0, &format!("meshes that no shape uses: {idle}"));
-    if !desc.shapes.is_empty() {
-        found.extend(first_look(prepared));
+    if idle > 0 {
+        let (meshes, verb) = (counted(idle, "mesh", "meshes"), if idle == 1 { "is" } else { "are" });
+        found.push((Severity::Note, format!("{meshes} of the file {verb} not drawn: used by no shape")));
+    }
+    let built = prepared.scene.accel.stats();
+    if built.triangles + built.user_primitives > 0 {
+        found.extend(first_look(desc, prepared));
     }
     found
 }
 
 /// What a few eye rays meet: nothing, or everything from its inside.
-fn first_look(prepared: &Prepared) -> Option<String> {
+fn first_look(desc: &SceneDesc, prepared: &Prepared) -> Option<Finding> {
     let cast = Cast { show: Show::Depth };
     let settings = Settings { samples: 1, ..prepared.settings };
     let job = Job { scene: &prepared.scene, integrator: &cast, settings };
@@ -53,15 +59,39 @@ fn first_look(prepared: &Prepared) -> Option<String> {
     }
     let rays = LOOKS[0] * LOOKS[1];
     if hits == 0 {
-        return Some(format!("the camera seems to look past everything: {rays} eye rays met nothing"));
+        let message = format!("the camera seems to look past everything: {rays} eye rays met nothing");
+        return Some((Severity::Warning, message));
     }
     let share = 100 * inside / hits;
     let message =
         "of what the camera sees is seen from its inside: it may stand in an object, or normals are turned";
-    (share > 50).then(|| format!("{share} % {message}"))
+    // The automatic camera stands outside of everything: open or turned surfaces are no fault of its.
+    (share > 50 && !desc.cameras.is_empty()).then(|| (Severity::Warning, format!("{share} % {message}")))
 }
 
-fn flat_triangles(mesh: &Mesh) -> usize {
+fn flat_triangles(desc: &SceneDesc) -> Option<Finding> {
+    let flat: usize = desc.meshes.iter().map(|m| flat_triangles_of(m)).sum();
+    let all: usize = desc.meshes.iter().map(|m| m.indices.len()).sum();
+    let (verb, them) = if flat == 1 { ("has", "it") } else { ("have", "them") };
+    let triangles = counted(flat as u64, "triangle", "triangles");
+    let message = format!("{triangles} {verb} no area, so nothing can hit {them}");
+    if flat == 0 {
+        None
+    } else if flat as f64 <= HARMLESS_SHARE * all as f64 {
+        Some((Severity::Note, format!("{message}: harmless, as few as this")))
+    } else {
+        Some((
+            Severity::Warning,
+            format!("{message}: {} of all, so part of the model may be missing", percent(flat, all)),
+        ))
+    }
+}
+
+fn percent(part: usize, all: usize) -> String {
+    format!("{:.0} %", 100.0 * part as f64 / all.max(1) as f64)
+}
+
+fn flat_triangles_of(mesh: &Mesh) -> usize {
     let corner = |i: u32| mesh.positions.get(i as usize).copied().map(Point3::to_f64);
     let is_flat = |t: &&[u32; 3]| {
         let (Some(a), Some(b), Some(c)) = (corner(t[0]), corner(t[1]), corner(t[2])) else {
@@ -72,7 +102,7 @@ fn flat_triangles(mesh: &Mesh) -> usize {
     mesh.indices.iter().filter(is_flat).count()
 }
 
-fn unused_meshes(desc: &SceneDesc) -> usize {
+fn unused_meshes(desc: &SceneDesc) -> u64 {
     let mut used = vec![false; desc.meshes.len()];
     for shape in &desc.shapes {
         if let ShapeSource::Mesh(id) = shape.source
@@ -81,5 +111,5 @@ fn unused_meshes(desc: &SceneDesc) -> usize {
             *used = true;
         }
     }
-    used.into_iter().filter(|used| !used).count()
+    used.into_iter().filter(|used| !used).count() as u64
 }

@@ -8,11 +8,11 @@ use durer::{
 use serde::Serialize;
 
 use super::{
-    doctor,
+    camera::{self, CameraFacts},
     memory::Memory,
     texture::{self, TextureFacts},
 };
-use crate::{load::Loaded, report::Complaint};
+use crate::{load::Loaded, options::SceneOptions, report::Complaint};
 
 #[derive(Serialize)]
 pub(super) struct Info<'a> {
@@ -21,16 +21,20 @@ pub(super) struct Info<'a> {
     pub(super) format: Option<&'static str>,
     pub(super) counts: Counts,
     pub(super) bounds: Option<WorldBounds>,
-    pub(super) cameras: Vec<Named<'a>>,
+    pub(super) cameras: Vec<CameraFacts<'a>>,
+    /// Where the camera used stands and looks.
+    #[serde(skip)]
+    pub(super) view: Option<([f64; 3], [f64; 3])>,
     pub(super) lights: Vec<Named<'a>>,
     pub(super) materials: Vec<Named<'a>>,
     pub(super) textures: Vec<TextureFacts<'a>>,
     pub(super) film: Film<'a>,
     /// What the scene asks for.
     pub(super) integrator: Option<&'a str>,
+    pub(super) render: Option<Render<'a>>,
     pub(super) memory: Option<Memory>,
     pub(super) seconds: Phases,
-    pub(super) doctor: Vec<String>,
+    pub(super) doctor: &'a [String],
     pub(super) complaints: Complaints,
     pub(super) diagnostics: Vec<Complaint<'a>>,
 }
@@ -40,6 +44,8 @@ pub(super) struct Counts {
     pub(super) shapes: usize,
     pub(super) moving_shapes: usize,
     pub(super) meshes: usize,
+    /// With those read from files of their own, a shared one once.
+    pub(super) meshes_different: Option<u64>,
     pub(super) materials: usize,
     pub(super) textures: usize,
     pub(super) lights: usize,
@@ -79,6 +85,15 @@ pub(super) struct Film<'a> {
     pub(super) filename: Option<&'a str>,
 }
 
+/// What `durer render` makes of the scene if no option says otherwise.
+#[derive(Serialize)]
+pub(super) struct Render<'a> {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) spp: u32,
+    pub(super) integrator: &'a str,
+}
+
 /// Wall time.
 #[derive(Serialize)]
 pub(super) struct Phases {
@@ -102,7 +117,10 @@ pub(super) struct Complaints {
 }
 
 impl<'a> Info<'a> {
-    pub(super) fn new(scene: &'a str, loaded: &'a Loaded) -> Self {
+    /// `doctor` is what was found odd in the finished scene; the diagnostics hold it too.
+    pub(super) fn new(asked: &'a SceneOptions, loaded: &'a Loaded, doctor: &'a [String]) -> Self {
+        let scene = &asked.scene;
+        let wishes = asked.wishes();
         let Loaded { imported, prepared, .. } = loaded;
         let desc = &imported.desc;
         let prepared = prepared.as_ref();
@@ -113,7 +131,8 @@ impl<'a> Info<'a> {
             format: format(scene),
             counts: Counts::new(desc, prepared),
             bounds: prepared.and_then(world_bounds),
-            cameras: desc.cameras.iter().map(|c| named(&c.name, &c.node)).collect(),
+            cameras: camera::of(desc, wishes.camera.as_deref(), wishes.time),
+            view: prepared.map(camera::view),
             lights: desc.lights.iter().map(|l| named(&l.name, &l.node)).collect(),
             materials: desc.materials.iter().map(|NamedNode { name, node }| named(name, node)).collect(),
             memory: prepared.map(|p| Memory::new(p, texture::image_bytes(desc, &imported.assets))),
@@ -125,11 +144,20 @@ impl<'a> Info<'a> {
                 filename: desc.film.filename.as_deref(),
             },
             integrator: desc.integrator.as_ref().map(|n| n.kind.as_str()),
+            render: prepared.map(Render::new),
             seconds: Phases::new(loaded),
-            doctor: prepared.map(|p| doctor::findings(desc, p)).unwrap_or_default(),
+            doctor,
             complaints: Complaints::new(&imported.diagnostics),
             diagnostics: Complaint::all(imported),
         }
+    }
+}
+
+impl<'a> Render<'a> {
+    fn new(prepared: &'a Prepared) -> Self {
+        let view = &prepared.scene.view;
+        let spp = prepared.settings.samples;
+        Self { width: view.width, height: view.height, spp, integrator: &prepared.integrator_name }
     }
 }
 
@@ -156,6 +184,7 @@ impl Counts {
             shapes: desc.shapes.len(),
             moving_shapes: desc.shapes.iter().filter(moves).count(),
             meshes: desc.meshes.len(),
+            meshes_different: geometry.map(|g| g.meshes),
             materials: desc.materials.len(),
             textures: desc.textures.len(),
             lights: desc.lights.len(),

@@ -120,15 +120,22 @@ fn nonsense_numbers_are_wrong_usage() {
 fn a_bad_destination_is_found_before_the_work() {
     // The scene does not exist either: that would be the complaint if the scene were read first.
     let place = Place::new();
-    for (file, code, why) in
-        [("x.tiff", 2, "tiff"), ("x", 2, "suffix"), ("nowhere/x.png", 1, "nowhere"), (".", 2, "suffix")]
-    {
+    for (file, code, why) in [
+        ("x.tiff", 2, "x.tiff: pictures are not written as .tiff"),
+        ("x.pgn", 2, "did you mean .png?"),
+        ("x", 2, "add .png or .exr to the name"),
+        ("nowhere/x.png", 1, "nowhere"),
+        (".", 1, "is a folder: name the picture, such as ./nothing.png"),
+    ] {
         let ran = place.run(&format!("render nothing.glb -o ok.png -o {file}"));
         assert_eq!(ran.code, code, "{file}: {}", ran.stderr);
         assert!(ran.stderr.contains(why) && !ran.stderr.contains("nothing.glb"), "{file}: {}", ran.stderr);
     }
     std::fs::create_dir(place.path("folder.png")).expect("a folder");
     let ran = place.run("render -o folder.png");
+    assert_eq!(ran.code, 1);
+    assert!(ran.stderr.contains("folder.png is a folder: name the picture"), "{}", ran.stderr);
+    let ran = place.run("trace --pixel 0,0 -o folder.png");
     assert_eq!(ran.code, 1);
     assert!(ran.stderr.contains("is a folder"), "{}", ran.stderr);
 }

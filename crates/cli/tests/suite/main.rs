@@ -7,5 +7,7 @@ mod interrupt;
 mod pictures;
 mod run;
 mod statistics;
+mod table;
 mod traces;
+mod usage;
 mod words;

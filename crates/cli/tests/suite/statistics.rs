@@ -50,7 +50,7 @@ fn info_counts_and_names() {
     assert_eq!(info["lights"][1], serde_json::json!({"name": "sun", "kind": "distant"}));
     assert_eq!(info["doctor"], serde_json::json!([]));
     let ran = place.done("info");
-    for word in ["1280 x 720", "sky (gradientsky)", "nothing odd found", "bounds"] {
+    for word in ["1280 x 720", "sky (gradientsky)", "nothing odd was found", "bounds"] {
         assert!(ran.stdout.contains(word), "{word} in {}", ran.stdout);
     }
 }

@@ -49,7 +49,8 @@ fn known() -> impl Iterator<Item = &'static str> {
     READ.iter().chain(HARMLESS).chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))
 }
 
-/// Refuses documents that require what we do not read; lists optional extensions that are ignored.
+/// Refuses documents that require what we do not read; lists optional extensions that are ignored, as a warning where
+/// the picture lacks something.
 pub(super) fn check(document: &Document<'_>) -> Checked<()> {
     let required = document.root.list("extensionsRequired")?;
     for element in &required {
@@ -63,8 +64,16 @@ pub(super) fn check(document: &Document<'_>) -> Checked<()> {
             ignored.push(name);
         }
     }
-    if let (Some(list), false) = (document.root.get("extensionsUsed")?, ignored.is_empty()) {
-        document.note(&list, format!("optional extensions that durer ignores: {}", ignored.join(", ")));
+    let Some(list) = document.root.get("extensionsUsed")? else { return Ok(()) };
+    let (looks, others): (Vec<&str>, Vec<&str>) =
+        ignored.into_iter().partition(|name| LOOKS_ONLY.contains(name));
+    if !looks.is_empty() {
+        let message =
+            format!("materials look simpler without what durer does not read: {}", looks.join(", "));
+        document.warn(&list, message);
+    }
+    if !others.is_empty() {
+        document.note(&list, format!("optional extensions that durer ignores: {}", others.join(", ")));
     }
     Ok(())
 }

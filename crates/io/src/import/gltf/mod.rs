@@ -80,7 +80,11 @@ fn import<'a>(document: &Document<'a>, bin: Option<&'a [u8]>, imported: &mut Imp
     buffers.warn_of_unused(document)?;
     let animations = document.root.list("animations")?;
     if let Some(first) = animations.first() {
-        document.note(first, format!("animations are not played yet: {}", animations.len()));
+        let message = match animations.len() {
+            1 => "1 animation is not played: the scene is drawn at rest".to_owned(),
+            n => format!("{n} animations are not played: the scene is drawn at rest"),
+        };
+        document.warn(first, message);
     }
     Ok(())
 }
