@@ -20,6 +20,11 @@ const ROWS: [u32; 6] = [80, 40, 24, 24, 24, 24];
 /// Rows of the table of the ambient term.
 const AMBIENT_ROWS: u32 = 32;
 
+/// Rows of tables for each row of the picture that are always enough: it is interpolated between pixels itself.
+const PER_PIXEL: u32 = 8;
+/// Least rows of any table.
+const LEAST_ROWS: u32 = 16;
+
 /// A small picture in latitude and longitude.
 #[derive(Debug)]
 struct Table {
@@ -53,12 +58,14 @@ pub(super) struct Blur {
 }
 
 impl Blur {
-    /// Blurs the picture.
-    pub(super) fn of(pyramid: &Pyramid) -> Self {
+    /// Blurs a picture of so many rows.
+    pub(super) fn of(pyramid: &Pyramid, picture_rows: u32) -> Self {
         let alpha = |i: usize| sqr((i + 1) as f32 / ROWS.len() as f32);
+        // Most of the time goes into the finest table, which a picture of a few pixels does not need.
+        let rows = |most: u32| most.min(picture_rows.saturating_mul(PER_PIXEL).max(LEAST_ROWS));
         Self {
             ambient: Table::of(pyramid, Lobe::Cosine, AMBIENT_ROWS),
-            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), ROWS[i])),
+            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), rows(ROWS[i]))),
         }
     }
     /// Mean over the cosine lobe about unit direction `n`.
