@@ -143,7 +143,7 @@ fn broken_pictures_are_told_with_numbers_and_what_to_do() {
 
 #[test]
 fn bitmaps_that_are_too_wide_or_negative_are_told_with_their_size() {
-    let header = |width: i32, height: i32, bits: u16| {
+    let file = |width: i32, height: i32, bits: u16| {
         let mut file = b"BM".to_vec();
         file.extend([0u8; 8]);
         file.extend(54u32.to_le_bytes());
@@ -153,11 +153,17 @@ fn bitmaps_that_are_too_wide_or_negative_are_told_with_their_size() {
         file.extend([1, 0]);
         file.extend(bits.to_le_bytes());
         file.extend([0; 24]);
-        said(&file, "a.bmp")
+        file
     };
+    let header = |width, height, bits| said(&file(width, height, bits), "a.bmp");
     assert!(header(70_000, 2, 24).contains("70000 x 2 pixels, at most 65535 along an edge"));
     assert!(header(-3, 2, 24).contains("its header says -3 x 2 pixels"));
     assert!(header(0, i32::MIN, 24).contains("0 x 2147483648 pixels"));
     assert!(header(4, 4, 7).contains("7 bits per pixel"));
     assert!(header(4, -4, 24).contains("ends too early"));
+    let mut strange = file(4, 4, 24);
+    strange[14] = 99;
+    let unread =
+        "a.bmp: a Windows bitmap (BMP) of a rare kind, which durer does not read; export it as EXR or PNG";
+    assert_eq!(said(&strange, "a.bmp"), unread);
 }

@@ -61,7 +61,7 @@ const KNOWN: &[(&str, &str)] = &[
     ("before IHDR", "its header is missing"),
     ("dimensions", "its header makes no sense"),
     ("method", "its header makes no sense"),
-    ("hunk", "its parts are not in order"),
+    ("hunk", "one of its parts is unknown or not in its place"),
 ];
 
 fn complaint(source: &Source<'_>, error: &png::DecodingError) -> AssetError {

@@ -14,7 +14,6 @@ const WHAT: &str = "Radiance HDR file";
 
 /// What the decoder's errors mean.
 const KNOWN: &[(&str, &str)] = &[
-    ("Orientation", "stored sideways or upside down"),
     ("EOF in", "it ends within its header"),
     ("imensions", "the line of its header with width and height makes no sense"),
     ("parse", "its header makes no sense"),

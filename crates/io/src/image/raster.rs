@@ -22,10 +22,6 @@ const BITMAP_EDGE: u64 = 65535;
 
 /// What the decoders' errors mean.
 const KNOWN: &[(&str, &str)] = &[
-    ("JPEG compression", "that holds a JPEG picture"),
-    ("PNG compression", "that holds a PNG picture"),
-    ("CMYK", "with printing colours (CMYK)"),
-    ("dimensions", "of too many pixels"),
     ("RLE data", "its run lengths make no sense"),
     ("itfield", "its colour masks make no sense"),
     ("alette", "its palette makes no sense"),

@@ -8,6 +8,15 @@ pub(super) const HARMLESS: u64 = 16 << 20;
 /// What helps against most damage.
 const AGAIN: &str = "copy or export the picture again";
 
+/// What the `image` crate calls features of sound files that it does not read, and what we do.
+const FEATURES: &[(&str, &str)] = &[
+    ("Orientation", "stored sideways or upside down"),
+    ("JPEG compression", "that holds a JPEG picture"),
+    ("PNG compression", "that holds a PNG picture"),
+    ("CMYK", "with printing colours (CMYK)"),
+    ("dimensions", "of too many pixels"),
+];
+
 /// Encoded bytes, what messages call them, and what they may grow to.
 pub(super) struct Source<'a> {
     pub(super) bytes: &'a [u8],
@@ -42,7 +51,7 @@ impl Source<'_> {
         let found = known.iter().find(|(word, _)| said.contains(word));
         self.damaged(what, found.map_or("its pixel data cannot be decoded", |(_, ours)| ours))
     }
-    /// What a decoder of the `image` crate said about a `what`; `known` as in [`Self::translated`].
+    /// What a decoder of the `image` crate said about a `what`; `known` damage as in [`Self::translated`].
     pub(super) fn image_error(
         &self,
         what: &str,
@@ -53,7 +62,7 @@ impl Source<'_> {
             image::ImageError::Unsupported(e) => {
                 let kind = match e.kind() {
                     UnsupportedErrorKind::GenericFeature(feature) => {
-                        known.iter().find(|(word, _)| feature.contains(word)).map(|(_, ours)| *ours)
+                        FEATURES.iter().find(|(word, _)| feature.contains(word)).map(|(_, ours)| *ours)
                     }
                     UnsupportedErrorKind::Format(ImageFormatHint::Name(name)) if name.contains("xyze") => {
                         Some("with XYZ colours")

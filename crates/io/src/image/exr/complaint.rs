@@ -53,8 +53,7 @@ pub(super) fn header(source: &Source<'_>, error: &Error) -> AssetError {
 pub(super) fn pixels(source: &Source<'_>, error: &Error) -> AssetError {
     match error {
         Error::Invalid(said) if said == END => {
-            let reason =
-                "blocks of pixels are missing: it ends too early, or its list of blocks makes no sense";
+            let reason = "blocks of pixels are missing (it ends too early, or its list of blocks is wrong)";
             source.damaged(WHAT, reason)
         }
         Error::Invalid(said) => match said.strip_prefix("compressed ") {
