@@ -81,3 +81,25 @@ impl Blur {
         std::array::from_fn(|c| lerp(x - i as f32, sharp[c], soft[c]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use durer_scene::{Image, ImageData};
+
+    use super::*;
+
+    #[test]
+    fn a_picture_of_a_few_pixels_is_blurred_into_small_tables() {
+        let rows = |height: u32| {
+            let values = vec![1.0; 6 * height as usize * height as usize];
+            let image = Image { width: 2 * height, height, channels: 3, data: ImageData::F32(values) };
+            let picture = Panorama::new(Arc::new(image), Layout::LatitudeLongitude);
+            Blur::of(&Pyramid::of(&picture), height).glossy.map(|table| table.size[1])
+        };
+        assert_eq!(rows(1), [LEAST_ROWS; ROWS.len()]);
+        assert_eq!(rows(4), [32, 32, 24, 24, 24, 24]);
+        assert_eq!(rows(10), ROWS, "eight rows for each are as many as there are at all");
+    }
+}
