@@ -24,8 +24,8 @@ pub(crate) struct SceneOptions {
     /// Camera, by name or index [default: the first, or one that frames everything].
     #[arg(long, value_name = "NAME_OR_INDEX", allow_negative_numbers = true)]
     camera: Option<String>,
-    /// A picture that surrounds the scene and lights it instead of its own sky: EXR, HDR, PFM, PNG or JPEG, twice as
-    /// wide as high or, as pbrt-v4 has it, square. Its top is +y, its middle +x.
+    /// A picture that surrounds the scene and lights it instead of its own sky: EXR, HDR, PFM, PNG, JPEG, BMP
+    /// or TGA, twice as wide as high or, as pbrt-v4 has it, square. Its top is +y, its middle +x.
     #[arg(long, value_name = "FILE")]
     env: Option<PathBuf>,
     /// The moment of the picture [default: 0].

@@ -11,7 +11,9 @@ use durer_core::{
 };
 use durer_io::FileAssets;
 use durer_model::light::SURROUNDINGS;
-use durer_scene::{AssetError, Assets, Diagnostics, LightDesc, Location, Node, Params, SceneDesc};
+use durer_scene::{
+    AssetError, Assets, Data, Diagnostics, LightDesc, Location, Node, Param, Params, SceneDesc, ValueType,
+};
 
 /// `desc` with the picture of `file` around it; its bytes become part of `assets`. `None` if it cannot be read, which was
 /// then complained about.
@@ -21,22 +23,26 @@ pub(crate) fn surround(
     assets: &mut FileAssets,
     diagnostics: &mut Diagnostics,
 ) -> Option<SceneDesc> {
-    // No scene can name a file like this, as its own files are found below its folder by then.
-    let name = format!("environment {}", file.display());
+    // Messages are about what the user typed, not about the scene. No scene has a file of such a name.
+    let name = format!("--env {}", file.display());
+    let at = Location::Path { file: name.clone(), pointer: String::new() };
     match bytes(file, assets) {
         Ok(bytes) => assets.insert(&name, bytes),
         Err(reason) => {
             diagnostics
-                .error(Location::None, format!("{name}: {reason}"))
+                .error(at, format!("{name}: {reason}"))
                 .hint("expected an EXR, HDR, PFM, PNG, JPEG, BMP or TGA picture of the surroundings");
             return None;
         }
     }
+    let mut params = Params::new();
+    let data = Data::Strings(vec![name.clone()]);
+    params.push(Param { name: "filename".to_owned(), ty: ValueType::String, data, at: at.clone() });
     let mut lit = desc.clone();
     lit.lights.retain(|light| !SURROUNDINGS.contains(&light.node.kind.as_str()));
     lit.lights.push(LightDesc {
         name: "environment".to_owned(),
-        node: Node::new("infinite", Params::new().string("filename", &name)),
+        node: Node { at, ..Node::new("infinite", params) },
         world_from_light: Motion::still(world_from_picture(desc)),
     });
     Some(lit)
@@ -48,6 +54,9 @@ fn bytes(file: &Path, assets: &FileAssets) -> Result<std::sync::Arc<[u8]>, Strin
         std::io::ErrorKind::NotFound => "file not found".to_owned(),
         _ => e.to_string(),
     })?;
+    if found.is_dir() {
+        return Err("is a folder; name a picture in it".to_owned());
+    }
     let (Some(folder), Some(name)) = (found.parent(), found.file_name()) else {
         return Err("not a file".to_owned());
     };

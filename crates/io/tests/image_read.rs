@@ -132,9 +132,7 @@ fn corrupt_pngs_are_refused() {
     };
     for path in files(&folder).iter().filter(|p| p.extension().is_some_and(|e| e == "png")) {
         let error = load(path).expect_err("a damaged file");
-        // Some have a damaged signature, which makes them files of no known format.
-        let signed = std::fs::read(path).expect("file of the corpus").starts_with(b"\x89PNG\r\n\x1a\n");
-        assert_eq!(matches!(error, AssetError::Format { .. }), signed, "{error}");
+        assert!(matches!(error, AssetError::Format { .. }), "{error}");
     }
 }
 
@@ -174,7 +172,7 @@ fn other_formats_are_refused_by_name() {
         (b"RIFF\0\0\0\0WEBPVP8 ", "a.webp", "WebP"),
         (b"\xabKTX 20\xbb\r\n\x1a\n", "a.ktx2", "KTX 2"),
         (b"DDS \0\0", "a.dds", "DDS"),
-        (b"hello", "a.png", "not an image of a known format"),
+        (b"hello", "a.txt", "not an image of a known format"),
     ];
     for (bytes, name, word) in cases {
         let error = read(bytes, name, Limits::default()).expect_err("unsupported");

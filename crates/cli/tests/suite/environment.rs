@@ -84,14 +84,15 @@ fn pictures_that_cannot_be_had_are_named_with_the_reason() {
     let place = Place::new().with("words.hdr", "hello").with("empty.exr", "").with("cut.exr", "v/1\u{1}");
     for (file, reason) in [
         ("nothing.hdr", "file not found"),
-        ("words.hdr", "not an image of a known format"),
+        ("words.hdr", "the name says Radiance HDR, but it does not begin like one"),
         ("empty.exr", "the file is empty"),
         ("cut.exr", "damaged OpenEXR"),
-        (".", "not a file"),
+        (".", "is a folder; name a picture in it"),
     ] {
         let ran = place.run(&format!("render --env {file} --width 8 --spp 1 -o x.png"));
         assert_eq!((ran.code, ran.stdout.as_str()), (1, ""), "{file}");
-        assert!(ran.stderr.contains(file) && ran.stderr.contains(reason), "{file}: {}", ran.stderr);
+        let begin = format!("error: --env {file}: ");
+        assert!(ran.stderr.starts_with(&begin) && ran.stderr.contains(reason), "{file}: {}", ran.stderr);
         assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
     }
 }

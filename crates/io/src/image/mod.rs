@@ -1,6 +1,6 @@
 //! Image files: pixels in ([`read`], by content, whatever the suffix says) and pictures out ([`writer_for`]).
 //!
-//! A new format in is a line in `SIGNATURES`; a new format out is a line in [`WRITERS`].
+//! A new format in is a line in `SIGNATURES` and one in `SUFFIXES`; a new format out is a line in [`WRITERS`].
 
 mod exr;
 mod jpeg;
@@ -9,12 +9,15 @@ mod pfm;
 mod png;
 mod radiance;
 mod raster;
+mod source;
 
 use durer_scene::{AssetError, Image, Limits};
 
 pub use exr::{ExrPicture, ExrValue, NamedChannel, read_exr_channels, write_exr};
 pub use output::{PictureFormat, WRITERS, WriteError, Writer, writer_for};
 pub use png::write_png;
+
+use source::Source;
 
 /// Reads the pixels of one file.
 type Decoder = fn(&Source<'_>) -> Result<Image, AssetError>;
@@ -60,54 +63,16 @@ const SIGNATURES: &[Signature] = &[
     foreign(b"ftypavif", 4, "AVIF"),
 ];
 
-/// Decoded bytes that any file may promise.
-const HARMLESS: u64 = 16 << 20;
-
-/// Encoded bytes, what messages call them, and what they may grow to.
-struct Source<'a> {
-    bytes: &'a [u8],
-    name: &'a str,
-    limits: Limits,
-}
-
-impl Source<'_> {
-    fn format_error(&self, reason: impl ToString) -> AssetError {
-        AssetError::Format { path: self.name.to_owned(), reason: reason.to_string() }
-    }
-    fn unsupported(&self, reason: impl Into<String>) -> AssetError {
-        AssetError::Unsupported { path: self.name.to_owned(), reason: reason.into() }
-    }
-    /// What a decoder of the `image` crate said about a `what`.
-    fn image_error(&self, what: &str, error: &image::ImageError) -> AssetError {
-        match error {
-            image::ImageError::Unsupported(e) => {
-                self.unsupported(format!("a {what} of a kind durer does not read: {e}"))
-            }
-            image::ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
-                self.format_error(format!("damaged {what}: the file ends too early"))
-            }
-            other => self.format_error(format!("damaged {what}: {other}")),
-        }
-    }
-    /// Complains about a header that promises nothing or too much. No compression we read shrinks the `sample_bytes`
-    /// of decoded data by more than `ratio`, so a short file that promises more is damaged: nothing is allocated.
-    fn check_size(&self, width: u64, height: u64, sample_bytes: u64, ratio: u64) -> Result<(), AssetError> {
-        if width == 0 || height == 0 || width > u64::from(u32::MAX) || height > u64::from(u32::MAX) {
-            return Err(self.format_error(format!("an image of {width} x {height} pixels")));
-        }
-        let pixels = width.saturating_mul(height);
-        if pixels > self.limits.image_pixels {
-            let reason = format!("{width} x {height} pixels, but the limit is {}", self.limits.image_pixels);
-            return Err(AssetError::Limits { path: self.name.to_owned(), reason });
-        }
-        let most = (self.bytes.len() as u64).saturating_mul(ratio).max(HARMLESS);
-        if pixels.saturating_mul(sample_bytes) > most {
-            let reason = format!("{width} x {height} pixels cannot be stored in {} bytes", self.bytes.len());
-            return Err(self.format_error(reason));
-        }
-        Ok(())
-    }
-}
+/// Suffixes in lower case, and the format that each promises. Targa files are known by theirs.
+const SUFFIXES: &[(&str, &str)] = &[
+    (".png", "PNG"),
+    (".jpg", "JPEG"),
+    (".jpeg", "JPEG"),
+    (".exr", "OpenEXR"),
+    (".hdr", "Radiance HDR"),
+    (".bmp", "BMP"),
+    (".pfm", "PFM"),
+];
 
 /// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
@@ -122,6 +87,17 @@ pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetErro
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),
         None if bytes.is_empty() => Err(source.format_error("the file is empty")),
         None if raster::is_tga(&source) => raster::decode_tga(&source),
-        None => Err(source.unsupported(format!("not an image of a known format; {READ}"))),
+        None => Err(unknown(&source, READ)),
+    }
+}
+
+/// A file that begins like none we know.
+fn unknown(source: &Source<'_>, read: &str) -> AssetError {
+    let name = source.name.to_lowercase();
+    match SUFFIXES.iter().find(|(suffix, _)| name.ends_with(suffix)) {
+        Some((_, format)) => source.format_error(format!(
+            "the name says {format}, but it does not begin like one; damaged on the way, or another kind of file?"
+        )),
+        None => source.unsupported(format!("not an image of a known format; {read}")),
     }
 }

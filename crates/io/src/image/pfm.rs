@@ -3,7 +3,7 @@
 //! in pbrt.
 use durer_scene::{AssetError, Image, ImageData};
 
-use super::Source;
+use super::source::Source;
 
 /// Longest word of a header: a number with all digits of a double.
 const LONGEST_WORD: usize = 64;
@@ -39,7 +39,7 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
 }
 
 fn damaged(source: &Source<'_>, reason: String) -> AssetError {
-    source.format_error(format!("damaged portable float map (PFM): {reason}"))
+    source.damaged("portable float map (PFM)", &reason)
 }
 
 /// The next word, and what follows the one blank after it.
@@ -86,7 +86,7 @@ mod tests {
             ("PF\n1 1\n0\n", "byte order is 0"),
             ("PF\n2 1\n-1\n", "12 bytes of pixels, expected 24"),
             ("PF\n0 1\n-1\n", "0 x 1 pixels"),
-            ("PF\n99999 99999\n-1\n", "limit"),
+            ("PF\n99999 99999\n-1\n", "at most 268435456 in all"),
             ("Pf\n9999 9999\n-1\n", "cannot be stored in 28 bytes"),
         ] {
             let error = pfm(header, &values, f32::to_le_bytes).err();

@@ -5,8 +5,9 @@ use durer_scene::{AssetError, Image, ImageData};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Limits, SrgbRenderingIntent, Transformations};
 
 use super::{
-    Source, WriteError,
+    WriteError,
     output::{check_length, replace_file},
+    source::Source,
 };
 
 /// Deflate cannot do better than 1032 : 1; one byte per row of filter types makes it no worse.
@@ -14,7 +15,7 @@ const BEST_RATIO: u64 = 1040;
 
 /// Reads a PNG file; palettes become RGB, transparency chunks alpha, depths below 8 bits 8 bits.
 pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
-    let fail = |e: png::DecodingError| source.format_error(format!("damaged PNG: {e}"));
+    let fail = |e: png::DecodingError| complaint(source, &e);
     if source.bytes.get(12..16) == Some(b"CgBI") {
         return Err(
             source.format_error("a PNG file in Apple's own form (CgBI); convert it to a standard PNG file")
@@ -29,7 +30,8 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     // A palette of 1 bit per pixel expands to 4 bytes: 32 times.
     source.check_size(width.into(), height.into(), 1, 32 * BEST_RATIO)?;
     let mut reader = decoder.read_info().map_err(fail)?;
-    let size = reader.output_buffer_size().ok_or_else(|| source.format_error("PNG too large"))?;
+    let size =
+        reader.output_buffer_size().ok_or_else(|| source.damaged("PNG", "its header makes no sense"))?;
     let mut bytes = vec![0; size];
     let frame = reader.next_frame(&mut bytes).map_err(fail)?;
     bytes.truncate(frame.buffer_size());
@@ -38,7 +40,7 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
         ColorType::GrayscaleAlpha => 2,
         ColorType::Rgb => 3,
         ColorType::Rgba => 4,
-        ColorType::Indexed => return Err(source.format_error("damaged PNG: no palette")),
+        ColorType::Indexed => return Err(source.damaged("PNG", "it has no palette")),
     };
     let data = match frame.bit_depth {
         BitDepth::Sixteen => {
@@ -47,6 +49,39 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
         _ => ImageData::U8(bytes),
     };
     Ok(Image { width, height, channels, data })
+}
+
+/// What the library's errors, which differ in their texts only, mean.
+const KNOWN: &[(&str, &str)] = &[
+    ("CRC error", "a checksum does not match"),
+    ("chunk is missing", "it holds no pixels"),
+    ("enough data for image", "pixels are missing"),
+    ("Corrupt deflate stream", "its pixel data cannot be decoded"),
+    ("palette", "its palette is missing or too short"),
+    ("before IHDR", "its header is missing"),
+    ("dimensions", "its header makes no sense"),
+    ("method", "its header makes no sense"),
+    ("hunk", "one of its parts is unknown or not in its place"),
+];
+
+fn complaint(source: &Source<'_>, error: &png::DecodingError) -> AssetError {
+    let said = match error {
+        png::DecodingError::IoError(_) => return source.ends_early("PNG"),
+        png::DecodingError::Format(e) => e.to_string(),
+        png::DecodingError::Parameter(_) | png::DecodingError::LimitsExceeded => String::new(),
+    };
+    // IHDR, the first part: the depth is byte 24 of the file, the colour type byte 25.
+    let (depth, kind) = (source.u8_at(24), source.u8_at(25));
+    let in_words = if said.starts_with("Invalid color type") {
+        format!("its header says colour type {kind}, expected 0, 2, 3, 4 or 6")
+    } else if said.starts_with("Invalid bit depth") {
+        format!("its header says {depth} bits per channel, expected 1, 2, 4, 8 or 16")
+    } else if said.starts_with("Invalid color/depth") {
+        format!("its header says {depth} bits per channel, which colour type {kind} cannot have")
+    } else {
+        return source.translated("PNG", &said, KNOWN);
+    };
+    source.damaged("PNG", &in_words)
 }
 
 /// Writes an 8-bit RGB picture with an sRGB chunk. `rgb8` holds rows from top to bottom.

@@ -1,5 +1,6 @@
 //! OpenEXR 2: colours in; any float channels with metadata out, bit for bit.
 
+mod complaint;
 mod read;
 mod write;
 

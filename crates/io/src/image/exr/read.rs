@@ -11,8 +11,9 @@ use exr::{
 };
 
 use super::{
-    super::{HARMLESS, Source},
+    super::source::{HARMLESS, Source},
     NamedChannel,
+    complaint::{self, WHAT},
 };
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
@@ -28,11 +29,11 @@ pub(in super::super) fn decode(source: &Source<'_>) -> Result<Image, AssetError>
     let Some((layer, picked)) = pick else {
         return Err(source.unsupported("an OpenEXR file without red, green and blue or luminance"));
     };
-    let size = |v: usize| u32::try_from(v).map_err(|e| source.format_error(e));
+    let size = |v: usize| u32::try_from(v).map_err(|_| source.damaged(WHAT, "its header makes no sense"));
     let (width, height) = (size(layer.size.width())?, size(layer.size.height())?);
     let (pixels, channels) = (layer.size.area(), picked.list.len());
     if picked.list.iter().any(|c| c.sample_data.len() != pixels) {
-        return Err(source.format_error("damaged OpenEXR file: samples are missing"));
+        return Err(source.damaged(WHAT, "pixels are missing"));
     }
     let mut data = vec![0.0f32; pixels * channels];
     for (i, channel) in picked.list.iter().enumerate() {
@@ -84,17 +85,13 @@ fn layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
     // exr 1.74.2 has assertions that damaged tile coordinates break (found by the test with mutilated files). Nothing
     // outlives the closure, so there is no half-changed state to see.
     std::panic::catch_unwind(|| checked_layers(source))
-        .unwrap_or_else(|_| Err(source.format_error("damaged OpenEXR file: the decoder gave up")))
+        .unwrap_or_else(|_| Err(source.damaged(WHAT, "its header and its pixels contradict each other")))
 }
 
 fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
-    let fail = |e: exr::error::Error| match e.to_string().as_str() {
-        "invalid: reference to missing bytes" => {
-            source.format_error("damaged OpenEXR file: it ends too early, or refers beyond its end")
-        }
-        said => source.format_error(format!("damaged OpenEXR file: {said}")),
-    };
-    let meta = MetaData::read_from_buffered(Cursor::new(source.bytes), false).map_err(fail)?;
+    let mut file = Cursor::new(source.bytes);
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(|e| complaint::header(source, &e))?;
+    let blocks = meta.headers.iter().fold(0u64, |sum, h| sum.saturating_add(h.chunk_count as u64));
     let mut decoded = 0u64;
     for header in &meta.headers {
         decoded = decoded.saturating_add(check_header(source, header)?);
@@ -102,7 +99,12 @@ fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
     // Each part alone may be harmless, but a short file can promise thousands of them.
     if decoded > (source.bytes.len() as u64).saturating_mul(BEST_RATIO).max(HARMLESS) {
         let reason = format!("{} parts cannot be stored in {} bytes", meta.headers.len(), source.bytes.len());
-        return Err(source.format_error(format!("damaged OpenEXR file: {reason}")));
+        return Err(source.damaged(WHAT, &reason));
+    }
+    // The list of blocks has 8 bytes for each. The reader may have looked at one byte after the header.
+    let left = (source.bytes.len() as u64 + 1).saturating_sub(file.position());
+    if left < blocks.saturating_mul(8) {
+        return Err(source.cut(WHAT, "its list of blocks"));
     }
     // One thread: a texture is decoded by whoever asked for it, and damaged blocks must not die in foreign threads.
     let image = read()
@@ -113,7 +115,7 @@ fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
         .all_attributes()
         .non_parallel()
         .from_buffered(Cursor::new(source.bytes))
-        .map_err(fail)?;
+        .map_err(|e| complaint::pixels(source, &e))?;
     Ok(image.layer_data.into_vec())
 }
 

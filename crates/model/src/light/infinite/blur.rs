@@ -20,6 +20,11 @@ const ROWS: [u32; 6] = [80, 40, 24, 24, 24, 24];
 /// Rows of the table of the ambient term.
 const AMBIENT_ROWS: u32 = 32;
 
+/// Rows of tables for each row of the picture that are always enough: it is interpolated between pixels itself.
+const PER_PIXEL: u32 = 8;
+/// Least rows of any table.
+const LEAST_ROWS: u32 = 16;
+
 /// A small picture in latitude and longitude.
 #[derive(Debug)]
 struct Table {
@@ -53,12 +58,14 @@ pub(super) struct Blur {
 }
 
 impl Blur {
-    /// Blurs the picture.
-    pub(super) fn of(pyramid: &Pyramid) -> Self {
+    /// Blurs a picture of so many rows.
+    pub(super) fn of(pyramid: &Pyramid, picture_rows: u32) -> Self {
         let alpha = |i: usize| sqr((i + 1) as f32 / ROWS.len() as f32);
+        // Most of the time goes into the finest table, which a picture of a few pixels does not need.
+        let rows = |most: u32| most.min(picture_rows.saturating_mul(PER_PIXEL).max(LEAST_ROWS));
         Self {
             ambient: Table::of(pyramid, Lobe::Cosine, AMBIENT_ROWS),
-            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), ROWS[i])),
+            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), rows(ROWS[i]))),
         }
     }
     /// Mean over the cosine lobe about unit direction `n`.
@@ -72,5 +79,27 @@ impl Blur {
         let sharp = if i == 0 { picture.seen(d) } else { self.glossy[i - 1].at(d) };
         let soft = self.glossy[i].at(d);
         std::array::from_fn(|c| lerp(x - i as f32, sharp[c], soft[c]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use durer_scene::{Image, ImageData};
+
+    use super::*;
+
+    #[test]
+    fn a_picture_of_a_few_pixels_is_blurred_into_small_tables() {
+        let rows = |height: u32| {
+            let values = vec![1.0; 6 * height as usize * height as usize];
+            let image = Image { width: 2 * height, height, channels: 3, data: ImageData::F32(values) };
+            let picture = Panorama::new(Arc::new(image), Layout::LatitudeLongitude);
+            Blur::of(&Pyramid::of(&picture), height).glossy.map(|table| table.size[1])
+        };
+        assert_eq!(rows(1), [LEAST_ROWS; ROWS.len()]);
+        assert_eq!(rows(4), [32, 32, 24, 24, 24, 24]);
+        assert_eq!(rows(10), ROWS, "eight rows for each are as many as there are at all");
     }
 }

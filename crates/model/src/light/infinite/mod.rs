@@ -108,7 +108,7 @@ impl Kind for Infinite {
             }
             scale *= wanted / found;
         }
-        let blur = Blur::of(&pyramid);
+        let blur = Blur::of(&pyramid, panorama.size()[1]);
         let picture = Box::new(Picture { panorama, blur, render_from_light: Transform::IDENTITY });
         Some(Box::new(Self { radiance: Color::gray(scale), picture: Some(picture) }))
     }
