@@ -1,17 +1,10 @@
 //! What is wrong with a scene, and where: the text with carets under it, or a path in a file without lines.
-use std::{
-    borrow::Cow,
-    collections::HashMap,
-    convert::Infallible,
-    fmt::{Debug, Display},
-    io::IsTerminal,
-    ops::Range,
-};
+use std::{borrow::Cow, io::IsTerminal, ops::Range};
 
-use ariadne::{CharSet, Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
+use anstyle::{AnsiColor, Style};
 use durer::{
     Imported,
-    scene::{Diagnostic, Diagnostics, Location, Severity, SourceId, Sources, Span},
+    scene::{Diagnostic, Diagnostics, Location, Severity, Sources, Span},
 };
 use serde::Serialize;
 
@@ -62,19 +55,18 @@ impl Looks {
 
 /// All complaints that are at least this severe.
 pub(crate) fn render(scene: &str, imported: &Imported, least: Severity, looks: Looks) -> String {
-    let mut texts = Texts { sources: &imported.sources, parsed: HashMap::new() };
     let said = imported.diagnostics.iter().filter(|d| d.severity >= least);
-    said.map(|d| one(scene, d, &mut texts, looks)).collect()
+    said.map(|d| one(scene, d, &imported.sources, looks)).collect()
 }
 
-fn one(scene: &str, diagnostic: &Diagnostic, texts: &mut Texts<'_>, looks: Looks) -> String {
+fn one(scene: &str, diagnostic: &Diagnostic, sources: &Sources, looks: Looks) -> String {
     let Diagnostic { severity, at, message, hint } = diagnostic;
     let header = header(*severity, looks);
     let (message, hint) = (harmless(message), hint.as_deref().map(harmless));
     let place = match at {
-        Location::Span(span) => match excerpt(diagnostic, *span, texts, looks) {
+        Location::Span(span) => match excerpt(*severity, *span, sources, looks) {
             Some(excerpt) => return format!("{header} {message}\n{excerpt}{}", help(hint.as_deref())),
-            None => texts.sources.name(span.source).to_owned(),
+            None => sources.name(span.source).to_owned(),
         },
         Location::Path { file, pointer } if pointer.is_empty() => file.clone(),
         Location::Path { file, pointer } => format!("{file}: {pointer}"),
@@ -101,56 +93,60 @@ fn header(severity: Severity, looks: Looks) -> String {
         Severity::Warning => "warning:",
         Severity::Note => "note:",
     };
-    if looks.color { word.fg(color(severity)).to_string() } else { word.to_owned() }
+    painted(word, severity, looks)
 }
 
-fn color(severity: Severity) -> Color {
-    match severity {
-        Severity::Error => Color::Red,
-        Severity::Warning => Color::Yellow,
-        Severity::Note => Color::Blue,
-    }
+/// `text` in the colour of a severity.
+fn painted(text: &str, severity: Severity, looks: Looks) -> String {
+    let color = match severity {
+        Severity::Error => AnsiColor::Red,
+        Severity::Warning => AnsiColor::Yellow,
+        Severity::Note => AnsiColor::Blue,
+    };
+    let style = if looks.color { color.on_default().bold() } else { Style::new() };
+    format!("{style}{text}{style:#}")
 }
 
-/// File, line and column, and the text with a mark below; `None` if the span lies in no text.
-fn excerpt(diagnostic: &Diagnostic, span: Span, texts: &mut Texts<'_>, looks: Looks) -> Option<String> {
-    let at = (span.source, marked(texts.sources.text(span.source), span)?);
-    let config = Config::default()
-        .with_color(looks.color)
-        .with_char_set(if looks.terminal { CharSet::Unicode } else { CharSet::Ascii })
-        .with_index_type(IndexType::Byte);
-    let label = Label::new(at.clone()).with_message("here").with_color(color(diagnostic.severity));
-    let report = Report::build(ReportKind::Error, at).with_config(config).with_label(label);
-    let mut bytes = Vec::new();
-    report.finish().write(texts, &mut bytes).ok()?;
-    // The first line is ariadne's header without message; ours has a colour on terminals only.
-    String::from_utf8(bytes).ok()?.split_once('\n').map(|(_, below)| below.to_owned())
+/// File, line and column, and the line with a mark below; `None` if the span lies in no text.
+fn excerpt(severity: Severity, span: Span, sources: &Sources, looks: Looks) -> Option<String> {
+    let (line, mark) = line_with_mark(sources.text(span.source), span)?;
+    let (number, column) = sources.line_column(span.source, span.start);
+    let name = harmless(sources.name(span.source));
+    let (line, before) = (harmless(&line), line.get(..mark.start)?.to_owned());
+    let number = number.to_string();
+    let margin = " ".repeat(number.len() + 1);
+    let bar = if looks.terminal { '│' } else { '|' };
+    // Tabs stay tabs, so that the mark stands under what it marks however wide they are.
+    let blank: String = before.chars().map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+    let marks = "^".repeat(line.get(mark)?.chars().count());
+    let marks = painted(&marks, severity, looks);
+    let line = line.trim_end();
+    Some(format!(
+        "{margin}--> {name}:{number}:{column}\n {number} {bar} {line}\n{margin} {bar} {blank}{marks}\n"
+    ))
 }
 
-/// The bytes to mark: at least one character, ends between characters.
-fn marked(text: &str, span: Span) -> Option<Range<usize>> {
+/// The line in which a span begins, and the bytes of it to mark: at least one character, ends between characters. Long
+/// lines are cut around the mark: scenes may have millions of numbers in one.
+fn line_with_mark(text: &str, span: Span) -> Option<(Cow<'_, str>, Range<usize>)> {
+    const AROUND: usize = 100;
     let last = text.char_indices().next_back()?.0;
     let start = text.floor_char_boundary(span.start as usize).min(last);
     let next = start + text.get(start..)?.chars().next()?.len_utf8();
-    Some(start..text.ceil_char_boundary(span.end as usize).clamp(next, text.len()))
-}
-
-/// The source texts, cut into lines when they are needed first.
-struct Texts<'a> {
-    sources: &'a Sources,
-    parsed: HashMap<SourceId, Source<Cow<'a, str>>>,
-}
-
-impl<'t> ariadne::Cache<SourceId> for Texts<'t> {
-    type Storage = Cow<'t, str>;
-
-    fn fetch(&mut self, id: &SourceId) -> Result<&Source<Cow<'t, str>>, impl Debug> {
-        let text = self.sources.text(*id);
-        Ok::<_, Infallible>(self.parsed.entry(*id).or_insert_with(|| Source::from(harmless(text))))
+    let from = text.get(..start)?.rfind('\n').map_or(0, |at| at + 1);
+    let to = text.get(next..)?.find('\n').map_or(text.len(), |at| next + at);
+    let end = text.ceil_char_boundary(span.end as usize).clamp(next, to.max(next)).min(start + AROUND);
+    let end = text.ceil_char_boundary(end).max(next);
+    let first = text.ceil_char_boundary(from.max(start.saturating_sub(AROUND)));
+    let stop = text.floor_char_boundary(to.max(end).min(end + AROUND));
+    let piece = text.get(first..stop)?;
+    if first == from && stop == to.max(end) {
+        return Some((Cow::Borrowed(piece), start - first..end - first));
     }
-    fn display<'a>(&self, id: &'a SourceId) -> Option<impl Display + 'a> {
-        Some(self.sources.name(*id).to_owned())
-    }
+    let before = if first == from { "" } else { "... " };
+    let after = if stop == to.max(end) { "" } else { " ..." };
+    let mark = before.len() + start - first..before.len() + end - first;
+    Some((Cow::Owned(format!("{before}{piece}{after}")), mark))
 }
 
 /// A complaint in JSON.
@@ -187,5 +183,38 @@ impl<'a> Complaint<'a> {
     /// All complaints about a scene.
     pub(crate) fn all(imported: &'a Imported) -> Vec<Self> {
         imported.diagnostics.iter().map(|d| Self::new(d, &imported.sources)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str, start: usize, end: usize) -> (String, String) {
+        let source = durer::scene::SourceId(0);
+        let span = Span { source, start: start as u32, end: end as u32 };
+        let (line, mark) = line_with_mark(text, span).expect("the span lies in the text");
+        (line.to_string(), line[mark].to_owned())
+    }
+
+    #[test]
+    fn a_short_line_is_shown_whole() {
+        assert_eq!(shown("one\ntwo three\nfour", 8, 13), ("two three".into(), "three".into()));
+        assert_eq!(shown("end", 3, 3), ("end".into(), "d".into()));
+        assert_eq!(
+            shown("a \"b\nc\" d", 2, 6),
+            ("a \"b".into(), "\"b".into()),
+            "only the first line of a span"
+        );
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_mark() {
+        let text = format!("{}\u{e9}oops {}", "1 ".repeat(1_000_000), "2 ".repeat(1_000_000));
+        let (line, mark) = shown(&text, 2_000_000, 2_000_006);
+        assert_eq!(mark, "\u{e9}oops");
+        assert!(line.starts_with("... ") && line.ends_with(" ...") && line.len() < 300, "{line}");
+        let (line, mark) = shown(&"x".repeat(1 << 20), 5, 1 << 20);
+        assert!(mark.len() == 100 && line.len() < 400 && !line.starts_with("..."));
     }
 }
