@@ -58,6 +58,38 @@ impl FileAssets {
     }
 }
 
+impl FileAssets {
+    /// For messages about a missing file: the folder it should be in, and which file there is called nearly the same.
+    pub(crate) fn looked_in(&self, path: &str) -> Option<String> {
+        let relative = relative_names(path)?;
+        let folder = match relative.parent() {
+            Some(parent) => self.folder.join(parent),
+            None => self.folder.clone(),
+        };
+        Some(looked_in(&folder, &relative.file_name()?.to_string_lossy()))
+    }
+}
+
+/// `looked in FOLDER`, with the name there that is nearest to `name`.
+pub(crate) fn looked_in(folder: &Path, name: &str) -> String {
+    // Nobody waits for a folder of millions of files.
+    const MOST: usize = 1000;
+    let names: Vec<String> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .take(MOST)
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    // "." is the folder itself: "./textures/." would only be longer.
+    let shown = Path::new(".").join(folder.strip_prefix(".").unwrap_or(folder));
+    let shown = shown.display().to_string();
+    let slash = if shown.ends_with('/') { "" } else { "/" };
+    let gone = if folder.is_dir() { "" } else { ", which is not there" };
+    let near = durer_scene::nearest_word(name, names.iter().map(String::as_str));
+    let near = near.map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+    format!("looked in {shown}{slash}{gone}{near}")
+}
+
 fn entries<T>(cache: &Cache<T>) -> MutexGuard<'_, HashMap<String, Arc<T>>> {
     // The map is whole even if a thread died while it held the lock: entries are inserted in one step.
     cache.lock().unwrap_or_else(PoisonError::into_inner)
@@ -88,6 +120,13 @@ impl Assets for FileAssets {
             };
         }
         read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
+    }
+    fn advice(&self, error: &AssetError) -> Option<String> {
+        match error {
+            AssetError::Missing { path } => self.looked_in(path),
+            AssetError::Outside { .. } => Some("copy the file into the scene's folder".to_owned()),
+            _ => None,
+        }
     }
     fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
         cached(&self.meshes, path, || crate::import::ply::mesh(&self.bytes(path)?, path))

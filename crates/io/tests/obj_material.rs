@@ -150,7 +150,9 @@ fn images_are_found_beside_the_mtl_file_and_by_their_last_name() {
         assert_eq!(scene.desc.textures.len(), 1, "{path}");
     }
     let scene = import(&[("a.obj", obj.as_bytes()), ("materials/a.mtl", b"newmtl m\nmap_Kd ../../x.png\n")]);
-    assert!(said(&scene, Severity::Warning)[0].contains("leads out of the scene's folder; drawn without"));
+    assert!(said(&scene, Severity::Warning)[0].contains(
+        "leads out of the scene's folder (for safety only files below it are read); drawn without"
+    ));
 }
 
 #[test]

@@ -151,7 +151,7 @@ fn wrong_statements_are_told_with_line_and_column() {
         "2:5: expected a number, found \"x\"",
         "3:1: expected 3 numbers, found 2",
         "4:1: expected numbers",
-        "5:1: a vertex is not finite",
+        "5:1: a coordinate is nan or infinite",
         "6:7: there is no vertex 9: the file has 4",
         "7:7: there are fewer than 7 vertices before this",
         "8:5: there is no vertex 0",
@@ -225,7 +225,7 @@ fn other_encodings_are_named() {
         let scene = import(&[("a.obj", bytes)]);
         assert!(said(&scene, Severity::Error)[0].ends_with("a.obj: this is UTF-16; save it as UTF-8"));
     }
-    let scene = import(&[("a.obj", b"\x7fELF\x02\0\0\0")]);
+    let scene = import(&[("a.obj", b"\x7fXLF\x02\0\0\0")]);
     assert!(said(&scene, Severity::Error)[0].ends_with("this is a binary file, not a Wavefront OBJ"));
     let scene = import(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\no K\xf6rper\nf 1 2 3\n")]);
     assert_eq!(scene.desc.shapes[0].name, "Körper");

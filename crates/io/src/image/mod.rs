@@ -60,6 +60,12 @@ const SIGNATURES: &[Signature] = &[
     foreign(b"ftypavif", 4, "AVIF"),
 ];
 
+/// What the format of an image file is called that begins with `head`.
+pub(crate) fn format_name(head: &[u8]) -> Option<&'static str> {
+    let starts = |s: &&Signature| head.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
+    SIGNATURES.iter().find(starts).map(|s| s.name)
+}
+
 /// Decoded bytes that any file may promise.
 const HARMLESS: u64 = 16 << 20;
 

@@ -22,7 +22,8 @@ pub(super) struct Element<'a> {
     pointer: String,
 }
 
-fn kind(value: &Value) -> &'static str {
+/// What messages call a value.
+pub(super) fn kind(value: &Value) -> &'static str {
     match value {
         Value::Null => "null",
         Value::Bool(_) => "a truth value",

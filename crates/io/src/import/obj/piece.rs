@@ -215,7 +215,7 @@ impl Piece {
     fn position(&mut self, line: Part<'_>, mut words: Words<'_>) {
         let position = self.numbers::<3>(line, words.clone());
         if !position.iter().all(|c| c.is_finite()) {
-            self.complaints.push(Complaint::error(line.range(), "a vertex is not finite"));
+            self.complaints.push(Complaint::error(line.range(), "a coordinate is nan or infinite"));
         }
         let more = words.by_ref().skip(3).map(|word| self.number(word)).take(4);
         let more: [Option<f32>; 4] = {
