@@ -20,6 +20,7 @@ pub struct FileAssets {
     folder: PathBuf,
     limits: Limits,
     embedded: BTreeMap<String, Arc<[u8]>>,
+    users: BTreeMap<String, String>,
     images: Cache<Image>,
     meshes: Cache<Mesh>,
 }
@@ -31,7 +32,14 @@ impl FileAssets {
     /// Assets below `folder`; the empty path is the current folder.
     pub fn new(folder: PathBuf, limits: Limits) -> Self {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        Self { folder, limits, embedded: BTreeMap::new(), images: Cache::default(), meshes: Cache::default() }
+        Self {
+            folder,
+            limits,
+            embedded: BTreeMap::new(),
+            users: BTreeMap::new(),
+            images: Cache::default(),
+            meshes: Cache::default(),
+        }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
     pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
@@ -59,6 +67,10 @@ impl FileAssets {
 }
 
 impl FileAssets {
+    /// For messages about the file `name`: what uses it first.
+    pub(crate) fn used_by(&mut self, name: &str, user: String) {
+        self.users.entry(name.to_owned()).or_insert(user);
+    }
     /// For messages about a missing file: the folder it should be in, and which file there is called nearly the same.
     pub(crate) fn looked_in(&self, path: &str) -> Option<String> {
         let relative = relative_names(path)?;
@@ -122,11 +134,14 @@ impl Assets for FileAssets {
         read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
     }
     fn advice(&self, error: &AssetError) -> Option<String> {
-        match error {
+        let advice = match error {
             AssetError::Missing { path } => self.looked_in(path),
             AssetError::Outside { .. } => Some("copy the file into the scene's folder".to_owned()),
             _ => None,
-        }
+        };
+        let user = self.users.get(error.path()).map(|user| format!("used by {user}"));
+        let all: Vec<String> = user.into_iter().chain(advice).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
     fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
         cached(&self.meshes, path, || crate::import::ply::mesh(&self.bytes(path)?, path))

@@ -148,7 +148,7 @@ fn vertex_colours_are_decoded_and_shown() {
 fn wrong_statements_are_told_with_line_and_column() {
     let scene = obj("v 0 0 0\nv 1 x 0\nv 1 1\nvt\nv 1 nan 0\nf 1 2 9\nf 1 2 -7\nf 1 0 2\nf 1 2 a\n");
     let expected = [
-        "2:5: expected a number, found \"x\"",
+        "2:5: \"x\" is not a number",
         "3:1: expected 3 numbers, found 2",
         "4:1: expected numbers",
         "5:1: a coordinate is nan or infinite",
@@ -170,9 +170,9 @@ fn what_is_left_out_is_said_once() {
     let warnings = said(&scene, Severity::Warning);
     let expected = [
         "5:1: 3 lines and points (l, p) are left out: only faces are drawn",
-        "13:1: 1 lines are skipped: curves and free-form surfaces are not read",
-        "8:1: 1 faces with fewer than 3 corners are left out",
-        "14:1: 1 faces name texture coordinates or normals that are not there; drawn without them",
+        "13:1: 1 line is skipped: curves and free-form surfaces are not read",
+        "8:1: 1 face with fewer than 3 corners is left out",
+        "14:1: 1 face names texture coordinates that are not there; drawn without them",
         "11:1: unknown word \"vertx\"; lines with it are skipped",
     ];
     assert_eq!(&warnings[..5], expected);

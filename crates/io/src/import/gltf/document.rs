@@ -80,7 +80,8 @@ impl<'a> Document<'a> {
         from.get(key)?.map(|reference| self.item(list, &reference)).transpose()
     }
 
-    fn location(&self, pointer: &str) -> Location {
+    /// The place in the file that `pointer` leads to.
+    pub(super) fn location(&self, pointer: &str) -> Location {
         Location::Path { file: self.file.to_string(), pointer: pointer.to_owned() }
     }
     /// Adds an error, once: many things may fail by the same cause.

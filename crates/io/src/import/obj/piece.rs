@@ -205,7 +205,7 @@ impl Piece {
 
     fn number(&mut self, word: Part<'_>) -> f32 {
         float(word.bytes).unwrap_or_else(|| {
-            let message = format!("expected a number, found \"{}\"", word.shown());
+            let message = format!("\"{}\" is not a number", word.shown());
             self.complaints.push(Complaint::error(word.range(), message));
             0.0
         })
@@ -237,7 +237,7 @@ impl Piece {
         let first = self.corners.len();
         let here = Counts([self.positions.len(), self.uvs.len(), self.normals.len()]);
         let so_far = start.plus(&here).0;
-        let mut lost = 0;
+        let mut lost = [0; 2];
         for word in words {
             match corner::resolve(word, so_far, total.0, &mut lost) {
                 Ok(corner) => self.corners.push(corner),
@@ -248,15 +248,19 @@ impl Piece {
                 }
             }
         }
-        if lost > 0 {
-            self.tallies.lost.add(line.range());
+        let [uvs, normals] = lost;
+        if uvs > 0 {
+            self.tallies.lost_uvs.add(line.range());
+        }
+        if normals > 0 {
+            self.tallies.lost_normals.add(line.range());
         }
         if self.corners.len() < first + 3 {
             self.tallies.poor.add(line.range());
             self.corners.truncate(first);
             return;
         }
-        self.make_even(line, first, lost);
+        self.make_even(line, first, uvs + normals);
         self.ends.push(self.corners.len());
     }
 
