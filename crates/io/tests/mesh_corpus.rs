@@ -159,7 +159,7 @@ const BAD: &[(&str, &str)] = &[
         "tinyobj/missing_material_file.obj",
         "11:8: the file uses materials, but names no file that holds them (mtllib); drawn in grey",
     ),
-    ("tinyobj/test-nan.obj", "12:1: a coordinate is nan or infinite"),
+    ("tinyobj/test-nan.obj", "12:1: a coordinate is nan or infinite (the first of 2 such errors)"),
     ("trimesh/notenoughindices.obj", "9:1: 1 face with fewer than 3 corners is left out"),
     ("trimesh/obj_empty.obj", "the file holds no faces: there is nothing to see"),
     ("trimesh/obj_wireframe.obj", "12:1: 12 lines and points (l, p) are left out: only faces are drawn"),

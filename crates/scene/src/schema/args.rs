@@ -151,15 +151,21 @@ impl<'a> Args<'a> {
         self.node.at.clone()
     }
 
+    /// Where parameter `name` was written; where the node was, if no text names it.
+    fn place(&self, name: &str) -> Location {
+        let own = self.node.params.get(name).map(|param| param.at.clone());
+        own.filter(|at| *at != Location::None).unwrap_or_else(|| self.node.at.clone())
+    }
+
     /// Complains about parameter `name`, or about the node if it is not given.
     pub fn error(&mut self, name: &str, message: impl Into<String>) {
-        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        let at = self.place(name);
         self.error_at(at, message.into());
     }
 
     /// Warns about parameter `name`, or about the node if it is not given.
     pub fn warning(&mut self, name: &str, message: impl Into<String>) {
-        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        let at = self.place(name);
         self.diagnostics.warning(at, message);
     }
 
@@ -291,7 +297,7 @@ impl<'a> Args<'a> {
             Err(error) => error,
         };
         let advice = assets.advice(&error);
-        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        let at = self.place(name);
         let said = match missing {
             Missing::Warn => self.diagnostics.warning(at, format!("{error}; {instead}")),
             Missing::Refuse => self.error_at(at, error.to_string()),
