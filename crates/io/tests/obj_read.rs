@@ -230,3 +230,9 @@ fn other_encodings_are_named() {
     let scene = import(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\no K\xf6rper\nf 1 2 3\n")]);
     assert_eq!(scene.desc.shapes[0].name, "Körper");
 }
+
+#[test]
+fn numbers_that_old_programs_could_not_write_are_none() {
+    let scene = import(&[("a.obj", b"v 0 0 1.#IND # a comment\nv 1 0 0#two\n")]);
+    assert_eq!(said(&scene, Severity::Error), ["1:7: \"1.#IND\" is not a number"]);
+}

@@ -302,10 +302,14 @@ fn complaint(word: Part<'_>, wrong: Wrong, total: [usize; 3]) -> Complaint {
     }
 }
 
-/// Names may hold a `#`, numbers do not.
+/// Names may hold a `#`, numbers do not, but for what old programs write in place of one: `1.#IND`, `-1.#INF`.
 fn without_comment(words: Words<'_>) -> Words<'_> {
     let rest = words.rest();
-    match memchr::memchr(b'#', rest.bytes) {
+    let is_number = |at: usize| {
+        let behind = rest.bytes.get(at + 1..).unwrap_or_default();
+        [&b"IND"[..], b"INF", b"QNAN", b"SNAN"].iter().any(|word| behind.starts_with(word))
+    };
+    match memchr::memchr_iter(b'#', rest.bytes).find(|&at| !is_number(at)) {
         Some(comment) => rest.split(comment).0.words(),
         None => words,
     }
