@@ -34,7 +34,8 @@ pub(crate) struct SceneOptions {
     /// Shutter opening and closing, in seconds after --time-at [default: an instant].
     #[arg(long, value_name = "OPEN,CLOSE", value_parser = shutter, allow_hyphen_values = true)]
     shutter: Option<Interval>,
-    /// Missing images become visible placeholders with a warning instead of an error.
+    /// A missing or damaged texture or mesh is an error, except of OBJ and PLY files, where it is a warning. With this it
+    /// is a warning everywhere, and a visible placeholder is drawn in place of a texture.
     #[arg(long)]
     lenient: bool,
 }

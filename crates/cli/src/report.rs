@@ -55,8 +55,10 @@ impl Looks {
 
 /// All complaints that are at least this severe.
 pub(crate) fn render(scene: &str, imported: &Imported, least: Severity, looks: Looks) -> String {
-    let said = imported.diagnostics.iter().filter(|d| d.severity >= least);
-    said.map(|d| one(scene, d, &imported.sources, looks)).collect()
+    let mut said: Vec<_> = imported.diagnostics.iter().filter(|d| d.severity >= least).collect();
+    // The errors last: they are what is left on the screen.
+    said.sort_by_key(|d| d.severity == Severity::Error);
+    said.into_iter().map(|d| one(scene, d, &imported.sources, looks)).collect()
 }
 
 fn one(scene: &str, diagnostic: &Diagnostic, sources: &Sources, looks: Looks) -> String {

@@ -20,6 +20,7 @@ pub struct FileAssets {
     folder: PathBuf,
     limits: Limits,
     embedded: BTreeMap<String, Arc<[u8]>>,
+    users: BTreeMap<String, String>,
     images: Cache<Image>,
     meshes: Cache<Mesh>,
 }
@@ -31,7 +32,14 @@ impl FileAssets {
     /// Assets below `folder`; the empty path is the current folder.
     pub fn new(folder: PathBuf, limits: Limits) -> Self {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        Self { folder, limits, embedded: BTreeMap::new(), images: Cache::default(), meshes: Cache::default() }
+        Self {
+            folder,
+            limits,
+            embedded: BTreeMap::new(),
+            users: BTreeMap::new(),
+            images: Cache::default(),
+            meshes: Cache::default(),
+        }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
     pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
@@ -56,6 +64,42 @@ impl FileAssets {
         // Only the canonical paths tell whether a symbolic link leads out.
         if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
     }
+}
+
+impl FileAssets {
+    /// For messages about the file `name`: what uses it first.
+    pub(crate) fn used_by(&mut self, name: &str, user: String) {
+        self.users.entry(name.to_owned()).or_insert(user);
+    }
+    /// For messages about a missing file: the folder it should be in, and which file there is called nearly the same.
+    pub(crate) fn looked_in(&self, path: &str) -> Option<String> {
+        let relative = relative_names(path)?;
+        let folder = match relative.parent() {
+            Some(parent) => self.folder.join(parent),
+            None => self.folder.clone(),
+        };
+        Some(looked_in(&folder, &relative.file_name()?.to_string_lossy()))
+    }
+}
+
+/// `looked in FOLDER`, with the name there that is nearest to `name`.
+pub(crate) fn looked_in(folder: &Path, name: &str) -> String {
+    // Nobody waits for a folder of millions of files.
+    const MOST: usize = 1000;
+    let names: Vec<String> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .take(MOST)
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    // "." is the folder itself: "./textures/." would only be longer.
+    let shown = Path::new(".").join(folder.strip_prefix(".").unwrap_or(folder));
+    let shown = shown.display().to_string();
+    let slash = if shown.ends_with('/') { "" } else { "/" };
+    let gone = if folder.is_dir() { "" } else { ", which is not there" };
+    let near = durer_scene::nearest_word(name, names.iter().map(String::as_str));
+    let near = near.map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+    format!("looked in {shown}{slash}{gone}{near}")
 }
 
 fn entries<T>(cache: &Cache<T>) -> MutexGuard<'_, HashMap<String, Arc<T>>> {
@@ -88,6 +132,16 @@ impl Assets for FileAssets {
             };
         }
         read_file(&self.resolve(path)?, path, self.limits).map(Arc::from)
+    }
+    fn advice(&self, error: &AssetError) -> Option<String> {
+        let advice = match error {
+            AssetError::Missing { path } => self.looked_in(path),
+            AssetError::Outside { .. } => Some("copy the file into the scene's folder".to_owned()),
+            _ => None,
+        };
+        let user = self.users.get(error.path()).map(|user| format!("used by {user}"));
+        let all: Vec<String> = user.into_iter().chain(advice).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
     fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
         cached(&self.meshes, path, || crate::import::ply::mesh(&self.bytes(path)?, path))

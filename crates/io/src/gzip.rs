@@ -1,7 +1,7 @@
 //! gzip (RFC 1952), told by its first bytes: whatever a file is called, it is unpacked if it is packed.
 use std::io::Read;
 
-use durer_scene::{AssetError, Limits};
+use durer_scene::{AssetError, Limits, counted};
 use flate2::bufread::MultiGzDecoder;
 
 /// True for a gzip stream of the deflate method, the only one there is.
@@ -18,7 +18,8 @@ pub(crate) fn unpack(packed: &[u8], name: &str, limits: Limits) -> Result<Vec<u8
     let mut bytes = Vec::with_capacity(expected(packed, limits));
     let decoder = MultiGzDecoder::new(packed);
     decoder.take(limits.file_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(|e| {
-        let reason = format!("damaged gzip data after {} bytes: {e}", bytes.len());
+        let there = counted(bytes.len(), "byte");
+        let reason = format!("the gzip file was cut off or is damaged: {there} could be unpacked ({e})");
         AssetError::Format { path: name.to_owned(), reason }
     })?;
     if bytes.len() as u64 > limits.file_bytes {

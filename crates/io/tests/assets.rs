@@ -89,7 +89,7 @@ fn gzip_is_unpacked_whatever_the_file_is_called() {
     assert_eq!(&*assets.bytes("embedded").expect("readable"), b"one two");
     fs::write(root.path().join("scene/cut.gz"), &packed(&[7; 1000])[..15]).expect("file");
     let error = assets.bytes("cut.gz").expect_err("damaged").to_string();
-    assert!(error.starts_with("cut.gz: damaged gzip data after "), "{error}");
+    assert!(error.starts_with("cut.gz: the gzip file was cut off or is damaged: "), "{error}");
 }
 
 /// 64 MB of zeros are 64 kB of gzip.
@@ -119,4 +119,21 @@ fn scene_files_open_in_any_letter_case_and_packed() {
     let said = other.diagnostics.iter().next().expect("an error");
     assert!(said.message.ends_with("a.fbx: not a scene format durer reads"));
     assert!(said.hint.as_deref().is_some_and(|h| h.contains(".obj, .ply, .stl")), "{said:?}");
+}
+
+#[test]
+fn missing_files_are_told_with_the_folder_and_the_nearest_name() {
+    let root = tempfile::tempdir().expect("temporary folder");
+    fs::create_dir(root.path().join("textures")).expect("folder");
+    fs::write(root.path().join("textures/Logo.jpg"), "").expect("file");
+    let assets = FileAssets::new(root.path().to_owned(), Limits::default());
+    let advice = |path: &str| assets.advice(&assets.bytes(path).expect_err("missing")).expect("advice");
+    let folder = root.path().join("textures");
+    assert_eq!(
+        advice("textures/logo.png"),
+        format!("looked in {}/; did you mean \"Logo.jpg\"?", folder.display())
+    );
+    assert_eq!(advice("textures/wood.png"), format!("looked in {}/", folder.display()));
+    assert!(advice("tex/logo.png").ends_with("/tex/, which is not there"));
+    assert_eq!(advice("../logo.png"), "copy the file into the scene's folder");
 }

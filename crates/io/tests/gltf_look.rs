@@ -264,7 +264,7 @@ fn faults_of_looks_point_at_their_cause() {
         (
             json!({"nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}]}),
             "/nodes/0/extensions/KHR_lights_punctual/light",
-            "no such light",
+            "lights/0, but there are none",
         ),
     ] {
         let found = first(&import(d, &[]), Severity::Error);

@@ -149,8 +149,12 @@ fn nodes_share_meshes_and_compose_transforms_in_double_precision() {
 #[test]
 fn cycles_and_second_parents_are_refused_whether_or_not_a_scene_draws_them() {
     for (nodes, pointer, text) in [
-        (json!([{"children": [1]}, {"children": [0]}]), "/nodes/0/children", "without cycles"),
-        (json!([{"children": [0]}]), "/nodes/0/children", "without cycles"),
+        (
+            json!([{"children": [1]}, {"children": [0]}]),
+            "/nodes/0/children",
+            "cycles: /nodes/0 -> /nodes/1 -> /nodes/0",
+        ),
+        (json!([{"children": [0]}]), "/nodes/0/children", "without cycles: /nodes/0 -> /nodes/0"),
         (json!([{}, {"children": [2]}, {"children": [1]}]), "/nodes/1/children", "without cycles"),
         (json!([{"children": [1, 1]}, {}]), "/nodes/0/children/1", "already a child of /nodes/0"),
         (
@@ -158,7 +162,7 @@ fn cycles_and_second_parents_are_refused_whether_or_not_a_scene_draws_them() {
             "/nodes/1/children/0",
             "already a child of /nodes/0",
         ),
-        (json!([{"children": [7]}]), "/nodes/0/children", "only 1 nodes"),
+        (json!([{"children": [7]}]), "/nodes/0/children", "there is only 1 node"),
     ] {
         let found = first(&import(json!({"nodes": nodes}), &[]), Severity::Error);
         assert!(found.0.starts_with(pointer) && found.1.contains(text), "{found:?}");
@@ -232,8 +236,8 @@ fn faults_point_at_their_cause() {
         ("/accessors/1/componentType", json!(5120), "/accessors/1", "unsigned"),
         ("/bufferViews/0/byteLength", json!(1000), "/bufferViews/0", "reaches to byte 1000"),
         ("/bufferViews/0/byteStride", json!(4), "/bufferViews/0/byteStride", "less than the 12 bytes"),
-        ("/bufferViews/0/buffer", json!(1), "/bufferViews/0/buffer", "only 1 buffers"),
-        ("/nodes/0", json!({"mesh": 5}), "/nodes/0/mesh", "only 1 meshes"),
+        ("/bufferViews/0/buffer", json!(1), "/bufferViews/0/buffer", "only 1 buffer"),
+        ("/nodes/0", json!({"mesh": 5}), "/nodes/0/mesh", "there is only 1 mesh"),
         ("/nodes/0", json!({"rotation": [0, 0, 0, 0]}), "/nodes/0/rotation", "length 0"),
         ("/nodes/0", json!({"scale": [1, 1]}), "/nodes/0/scale", "expected 3 numbers, found 2"),
     ] {

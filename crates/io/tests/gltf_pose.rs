@@ -94,7 +94,7 @@ fn normals_of_stretched_and_mirrored_joints_stay_upright_on_their_surface() {
 #[test]
 fn skins_at_fault_say_where() {
     for (pointer, value, at, text) in [
-        ("/skins/0/joints", json!([1]), "/accessors/2", "follows joint 1, but the skin has 1 joints"),
+        ("/skins/0/joints", json!([1]), "/accessors/2", "follows joint 1, but the skin has 1 joint"),
         ("/skins/0/joints", json!([1, 9]), "/skins/0/joints/1", "refers to /nodes/9"),
         ("/skins/0/joints", json!([]), "/skins/0/joints", "at least one joint"),
         (
@@ -104,7 +104,7 @@ fn skins_at_fault_say_where() {
             "2 inverse bind matrices for 3",
         ),
         ("/accessors/4/type", json!("VEC4"), "/accessors/4", "expected 16 numbers per element, found 4"),
-        ("/nodes/3/skin", json!(1), "/nodes/3/skin", "only 1 skins"),
+        ("/nodes/3/skin", json!(1), "/nodes/3/skin", "there is only 1 skin"),
         ("/meshes/0/primitives/0/attributes/JOINTS_1", json!(2), "/accessors/2", "must come together"),
         ("/accessors/2/componentType", json!(5120), "/accessors/2", "unsigned"),
     ] {

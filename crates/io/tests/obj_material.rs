@@ -150,7 +150,9 @@ fn images_are_found_beside_the_mtl_file_and_by_their_last_name() {
         assert_eq!(scene.desc.textures.len(), 1, "{path}");
     }
     let scene = import(&[("a.obj", obj.as_bytes()), ("materials/a.mtl", b"newmtl m\nmap_Kd ../../x.png\n")]);
-    assert!(said(&scene, Severity::Warning)[0].contains("leads out of the scene's folder; drawn without"));
+    assert!(said(&scene, Severity::Warning)[0].contains(
+        "leads out of the scene's folder (for safety only files below it are read); drawn without"
+    ));
 }
 
 #[test]
@@ -187,9 +189,9 @@ fn a_file_of_the_models_own_name_stands_in_for_a_missing_one() {
 fn wrong_lines_are_told_in_the_mtl_file() {
     let scene = with("Kd 1 x 0\nKs\nNs nan\nmap_kd dot.png\nrefl a.png\nrefl a.png\nd -halo 0.5\n");
     let expected = [
-        "2:6: expected a number, found \"x\"",
+        "2:6: \"x\" is not a number",
         "3:1: a colour is missing",
-        "4:4: expected a number, found \"nan\"",
+        "4:4: \"nan\" is not a number",
         "5:1: unknown word \"map_kd\"; its lines are skipped; did you mean \"map_Kd\"?",
         "6:1: refl is not supported yet; drawn without it",
         "8:3: -halo is not supported: the surface is as opaque everywhere",

@@ -148,10 +148,10 @@ fn vertex_colours_are_decoded_and_shown() {
 fn wrong_statements_are_told_with_line_and_column() {
     let scene = obj("v 0 0 0\nv 1 x 0\nv 1 1\nvt\nv 1 nan 0\nf 1 2 9\nf 1 2 -7\nf 1 0 2\nf 1 2 a\n");
     let expected = [
-        "2:5: expected a number, found \"x\"",
+        "2:5: \"x\" is not a number",
         "3:1: expected 3 numbers, found 2",
         "4:1: expected numbers",
-        "5:1: a vertex is not finite",
+        "5:1: a coordinate is nan or infinite",
         "6:7: there is no vertex 9: the file has 4",
         "7:7: there are fewer than 7 vertices before this",
         "8:5: there is no vertex 0",
@@ -170,9 +170,9 @@ fn what_is_left_out_is_said_once() {
     let warnings = said(&scene, Severity::Warning);
     let expected = [
         "5:1: 3 lines and points (l, p) are left out: only faces are drawn",
-        "13:1: 1 lines are skipped: curves and free-form surfaces are not read",
-        "8:1: 1 faces with fewer than 3 corners are left out",
-        "14:1: 1 faces name texture coordinates or normals that are not there; drawn without them",
+        "13:1: 1 line is skipped: curves and free-form surfaces are not read",
+        "8:1: 1 face with fewer than 3 corners is left out",
+        "14:1: 1 face names texture coordinates that are not there; drawn without them",
         "11:1: unknown word \"vertx\"; lines with it are skipped",
     ];
     assert_eq!(&warnings[..5], expected);
@@ -225,8 +225,14 @@ fn other_encodings_are_named() {
         let scene = import(&[("a.obj", bytes)]);
         assert!(said(&scene, Severity::Error)[0].ends_with("a.obj: this is UTF-16; save it as UTF-8"));
     }
-    let scene = import(&[("a.obj", b"\x7fELF\x02\0\0\0")]);
+    let scene = import(&[("a.obj", b"\x7fXLF\x02\0\0\0")]);
     assert!(said(&scene, Severity::Error)[0].ends_with("this is a binary file, not a Wavefront OBJ"));
     let scene = import(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\no K\xf6rper\nf 1 2 3\n")]);
     assert_eq!(scene.desc.shapes[0].name, "Körper");
+}
+
+#[test]
+fn numbers_that_old_programs_could_not_write_are_none() {
+    let scene = import(&[("a.obj", b"v 0 0 1.#IND # a comment\nv 1 0 0#two\n")]);
+    assert_eq!(said(&scene, Severity::Error), ["1:7: \"1.#IND\" is not a number"]);
 }

@@ -119,18 +119,17 @@ fn damaged_files_are_told_where() {
     let square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
     for (body, expected) in [
         ("0 0 0\n1 0 x\n1 1 0\n0 1 0\n4 0 1 2 3\n", "11:5: expected a number, found \"x\""),
-        ("0 0 0\n1 0 nan\n1 1 0\n0 1 0\n4 0 1 2 3\n", "11:5: a vertex is not finite"),
+        ("0 0 0\n1 0 nan\n1 1 0\n0 1 0\n4 0 1 2 3\n", "11:5: a coordinate is nan or infinite"),
         (&format!("{square}4 0 1 2 4\n"), "14:9: a face names vertex 4, but there are 4, counted from 0"),
         (&format!("{square}4 0 1 2 -1\n"), "14:9: a face names vertex -1, but there are 4, counted from 0"),
-        (&format!("{square}4 0 1 2\n"), "14:7: a number is missing behind this"),
+        (&format!("{square}4 0 1 2\n"), "14:7: this face says 4 corners but lists 3"),
         (&format!("{square}-3 0 1 2\n"), "14:1: a list of -3 values"),
-        (square, "7:1: the header promises 1 rows of the element face, but the file ends after 0"),
+        (square, "7:1: the header promises 1 row of the element face, but the file ends after 0"),
     ] {
         assert_eq!(error(&text(body)), expected);
     }
     for (bytes, expected) in [
-        (&b"plyx\n"[..], "1:1: not a PLY file: it does not begin with a line \"ply\""),
-        (b"ply\nelement vertex 1\nend_header\n", "3:1: the header has no line \"format\""),
+        (&b"ply\nelement vertex 1\nend_header\n"[..], "3:1: the header has no line \"format\""),
         (
             b"ply\nformat asci 1.0\n",
             "2:8: expected \"ascii\", \"binary_little_endian\" or \"binary_big_endian\", found \"asci\"",
@@ -148,6 +147,8 @@ fn damaged_files_are_told_where() {
     ] {
         assert_eq!(error(bytes), expected);
     }
+    let foreign = "not a PLY file: it begins with \"plyx\", not with a line \"ply\"";
+    assert!(error(b"plyx\n").ends_with(foreign));
 }
 
 /// A reader that believed these headers would ask for terabytes.

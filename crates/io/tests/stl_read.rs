@@ -59,16 +59,16 @@ fn wrong_counts_are_told() {
     let error = |bytes: &[u8]| said(&stl(bytes), Severity::Error).remove(0);
     assert!(
         error(&binary(b"x", 4_000_000_000, &TWO))
-            .ends_with("the file claims 4000000000 triangles, but ends after 2")
+            .ends_with("the file was cut off: 2 of 4000000000 triangles are there")
     );
-    assert!(error(&binary(b"solid", 3, &TWO)).ends_with("the file claims 3 triangles, but ends after 2"));
-    assert!(error(b"PK").ends_with("not an STL file: 2 bytes are too few for a binary one"));
+    assert!(error(&binary(b"solid", 3, &TWO)).ends_with("the file was cut off: 2 of 3 triangles are there"));
+    assert!(error(b"PK").ends_with("this is no STL file: 2 bytes are too few for a binary one"));
     let scene = stl(&binary(b"x", 1, &TWO));
     assert!(said(&scene, Severity::Warning)[0].ends_with("50 bytes behind the last triangle are ignored"));
     assert_eq!(triangles(&scene), 1);
     let mut nan = TWO;
     nan[1][4] = f32::NAN;
-    assert!(error(&binary(b"x", 2, &nan)).ends_with("triangle 1: a corner is not finite"));
+    assert!(error(&binary(b"x", 2, &nan)).ends_with("triangle 1: a coordinate is nan or infinite"));
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn wrong_text_is_told_with_its_place() {
             good.replace("facet normal", "face normal"),
             "2:1: expected \"facet\" or \"endsolid\", found \"face\"",
         ),
-        (good.replace("vertex 1 0 0", "vertex inf 0 0"), "4:1: a corner is not finite"),
+        (good.replace("vertex 1 0 0", "vertex inf 0 0"), "4:1: a coordinate is nan or infinite"),
         (
             "facet normal 0 0 1 outer loop vertex 1 2".to_owned(),
             "2:40: the file ends within a facet: expected a number",

@@ -62,11 +62,25 @@ pub enum AssetError {
         reason: String,
     },
     /// A path that leads out of the scene's folder.
-    #[error("{path}: leads out of the scene's folder")]
+    #[error("{path}: leads out of the scene's folder (for safety only files below it are read)")]
     Outside {
         /// As asked for.
         path: String,
     },
+}
+
+impl AssetError {
+    /// As asked for.
+    pub fn path(&self) -> &str {
+        match self {
+            Self::Missing { path }
+            | Self::Io { path, .. }
+            | Self::Format { path, .. }
+            | Self::Unsupported { path, .. }
+            | Self::Limits { path, .. }
+            | Self::Outside { path } => path,
+        }
+    }
 }
 
 /// Pixels of an image, rows from top to bottom, channels interleaved.
@@ -110,4 +124,8 @@ pub trait Assets: Sync {
     /// # Errors
     /// Why it could not be had.
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError>;
+    /// What to do about `error`: where was looked, and what is there that is called nearly the same.
+    fn advice(&self, _error: &AssetError) -> Option<String> {
+        None
+    }
 }

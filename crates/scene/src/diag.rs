@@ -67,8 +67,8 @@ impl Diagnostics {
         let valid: Vec<&str> = valid.into_iter().collect();
         let hint = match nearest_word(word, valid.iter().copied()) {
             Some(near) => format!("did you mean \"{near}\"?"),
-            None if valid.is_empty() => "none is known here".to_owned(),
-            None => format!("valid: {}", valid.join(", ")),
+            None if valid.is_empty() => format!("the scene defines no {what}s"),
+            None => format!("valid: {}", listed(&valid)),
         };
         self.error(at, format!("unknown {what} \"{word}\"")).hint(hint);
     }
@@ -98,6 +98,18 @@ impl Diagnostics {
     }
 }
 
+/// Words with commas between them, of long lists the first.
+pub fn listed(words: &[&str]) -> String {
+    const MOST: usize = 12;
+    match words.get(..MOST) {
+        // Nothing is gained by "and 1 more".
+        Some(first) if words.len() > MOST + 1 => {
+            format!("{} and {} more", first.join(", "), words.len() - MOST)
+        }
+        _ => words.join(", "),
+    }
+}
+
 impl Diagnostic {
     /// Sets what to do about it.
     pub fn hint(&mut self, hint: impl Into<String>) -> &mut Self {
@@ -111,5 +123,28 @@ impl<'a> IntoIterator for &'a Diagnostics {
     type IntoIter = std::slice::Iter<'a, Diagnostic>;
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_are_cut() {
+        let words: Vec<String> = (1..=30).map(|i| i.to_string()).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        assert_eq!(listed(&words), "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 and 18 more");
+        assert_eq!(listed(words.get(..13).unwrap_or_default()), "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13");
+    }
+
+    #[test]
+    fn an_empty_list_is_told_in_words() {
+        let mut said = Diagnostics::default();
+        said.unknown(Location::None, "material", "gold", []);
+        assert_eq!(
+            said.iter().next().and_then(|d| d.hint.clone()),
+            Some("the scene defines no materials".into())
+        );
     }
 }

@@ -6,6 +6,7 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod assets;
+mod counted;
 mod desc;
 mod diag;
 mod mesh;
@@ -15,11 +16,12 @@ mod schema;
 mod span;
 
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
+pub use counted::counted;
 pub use desc::{
     CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource,
     TextureDesc, TextureValue,
 };
-pub use diag::{Diagnostic, Diagnostics, Severity};
+pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};

@@ -1,13 +1,22 @@
 //! "Did you mean ...?"
 
-/// The valid word nearest to `word`, if one is near enough to be a slip of the finger.
+/// The valid word nearest to `word`, if one is near enough to be a slip of the finger. Of short words nearly all are near
+/// each other: up to three letters only one may differ, and words of less than three have no neighbours.
 pub fn nearest_word<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase();
+    let near_enough = |distance: usize, v: &str| {
+        let least = v.chars().count().min(word.chars().count());
+        match least {
+            0..3 => word.eq_ignore_ascii_case(v),
+            3 => distance <= 1,
+            _ => distance <= 1 + least / 3,
+        }
+    };
     valid
         .into_iter()
         .map(|v| (strsim::damerau_levenshtein(&lower, &v.to_lowercase()), v))
+        .filter(|(distance, v)| near_enough(*distance, v))
         .min_by_key(|(distance, _)| *distance)
-        .filter(|(distance, v)| *distance <= 1 + v.len().min(word.len()) / 3)
         .map(|(_, v)| v)
 }
 
@@ -21,5 +30,8 @@ mod tests {
         assert_eq!(nearest_word("raduis", valid), Some("radius"));
         assert_eq!(nearest_word("Reflectence", valid), Some("reflectance"));
         assert_eq!(nearest_word("banana", valid), None);
+        assert_eq!(nearest_word("foo", ["fo", "f", "vn"]), None);
+        assert_eq!(nearest_word("bas", ["bar", "o"]), Some("bar"));
+        assert_eq!(nearest_word("kd", ["Kd", "Ks"]), Some("Kd"));
     }
 }

@@ -74,6 +74,12 @@ const SUFFIXES: &[(&str, &str)] = &[
     (".pfm", "PFM"),
 ];
 
+/// What the format of an image file is called that begins with `head`.
+pub(crate) fn format_name(head: &[u8]) -> Option<&'static str> {
+    let starts = |s: &&Signature| head.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
+    SIGNATURES.iter().find(starts).map(|s| s.name)
+}
+
 /// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors

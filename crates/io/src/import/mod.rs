@@ -3,6 +3,7 @@
 //! A new format is one file here and one line in [`FORMATS`].
 
 mod color;
+mod content;
 mod gltf;
 mod obj;
 pub mod pbrt;
@@ -14,7 +15,7 @@ mod unify;
 
 use std::path::{Path, PathBuf};
 
-use durer_scene::{Diagnostics, Limits, SceneDesc, Sources};
+use durer_scene::{Diagnostics, Limits, Location, SceneDesc, Sources};
 
 use crate::FileAssets;
 
@@ -70,12 +71,19 @@ pub fn open(path: &Path, limits: Limits) -> Imported {
     let unpacked = if suffix(path) == "gz" { path.with_extension("") } else { path.to_owned() };
     imported.desc.name = unpacked.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let suffix = suffix(&unpacked);
-    match FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str())) {
+    let format = FORMATS.iter().find(|f| f.suffixes.contains(&suffix.as_str()));
+    let packed = unpacked != path;
+    if let Some(wrong) = content::check(path, packed, format.map(|f| f.name)) {
+        let file = path.display().to_string();
+        imported.diagnostics.error(Location::Path { file, pointer: String::new() }, wrong);
+        return imported;
+    }
+    match format {
         Some(format) => (format.read)(path, &mut imported),
         None => {
             let known: Vec<_> = FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
             let message = format!("{}: not a scene format durer reads", path.display());
-            imported.diagnostics.error(durer_scene::Location::None, message).hint(format!(
+            imported.diagnostics.error(Location::None, message).hint(format!(
                 "expected a file ending in {}; it may be packed with gzip (.gz)",
                 known.join(", ")
             ));

@@ -1,10 +1,10 @@
 //! Files of others, and the example of our documentation.
 use std::path::Path;
 
-use durer_io::import::open;
+use durer_io::import::{Imported, open};
 use durer_scene::Limits;
 
-use super::read::{complaints, shared, sound};
+use super::read::{complaints, read, shared, sound};
 
 fn pbrt_files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
@@ -46,8 +46,17 @@ fn the_shared_scenes_are_read() {
 
 /// The errors of a malformed file; `None` where the file is missing.
 fn errors_of(name: &str) -> Option<Vec<String>> {
-    let imported = open(&shared(&format!("malformed/pbrt/{name}"))?, Limits::default());
-    let found = complaints(&imported);
+    errors_in(name, &open(&shared(&format!("malformed/pbrt/{name}"))?, Limits::default()))
+}
+
+/// All of them, where a file of an older version would show a few.
+fn all_errors_of(name: &str) -> Option<Vec<String>> {
+    let text = std::fs::read_to_string(shared(&format!("malformed/pbrt/{name}"))?).expect("a text");
+    errors_in(name, &read(&text))
+}
+
+fn errors_in(name: &str, imported: &Imported) -> Option<Vec<String>> {
+    let found = complaints(imported);
     for complaint in &found {
         eprintln!("{name}:{complaint}");
     }
@@ -55,8 +64,17 @@ fn errors_of(name: &str) -> Option<Vec<String>> {
 }
 
 #[test]
+fn files_of_older_versions_are_called_so_first() {
+    for name in ["pbrt-v2-syntax_killeroo-simple.pbrt", "pbrt-v3-syntax_uber.pbrt"] {
+        let Some(errors) = errors_of(name) else { return };
+        assert!(errors[0].contains("this looks like a pbrt-v2 or pbrt-v3 file"), "{errors:?}");
+        assert!((3..=7).contains(&errors.len()), "{errors:?}");
+    }
+}
+
+#[test]
 fn older_versions_are_told_apart() {
-    if let Some(errors) = errors_of("pbrt-v2-syntax_killeroo-simple.pbrt") {
+    if let Some(errors) = all_errors_of("pbrt-v2-syntax_killeroo-simple.pbrt") {
         assert_eq!(
             errors[0],
             "5:6 error: unknown film \"image\" | \"image\" | this is pbrt-v3's word; pbrt-v4 writes \"rgb\""
@@ -73,7 +91,7 @@ fn older_versions_are_told_apart() {
         );
         assert!(errors.iter().any(|e| e.contains("unknown parameter type \"color\"")));
     }
-    if let Some(errors) = errors_of("pbrt-v3-syntax_uber.pbrt") {
+    if let Some(errors) = all_errors_of("pbrt-v3-syntax_uber.pbrt") {
         assert!(errors[0].contains("unknown film \"image\""), "{errors:?}");
         assert!(
             errors

@@ -36,8 +36,8 @@ fn strings_and_brackets_must_be_closed() {
     world_says(
         "Shape \"sphere\nShape \"sphere\" \"string name\" \"a\nShape \"disk\"",
         &[
-            "2:7 error: this string is not closed | \"sphere | strings end on the line they begin on",
-            "3:30 error: this string is not closed | \"a | strings end on the line they begin on",
+            "2:7 error: this string is not closed | \"sphere | a closing quote is missing: strings end on the line they begin on",
+            "3:30 error: this string is not closed | \"a | a closing quote is missing: strings end on the line they begin on",
         ],
     );
     world_says("Shape \"sphere\" \"float radius\" [ 1", &["2:31 error: this [ is not closed | ["]);
@@ -280,7 +280,14 @@ fn columns_count_characters() {
     world_says(
         "# größe\nShape \"küché\" wörd",
         &[
-            "3:15 error: unknown directive \"wörd\" | wörd | valid: AttributeBegin, AttributeEnd, Transform, ObjectInstance, Shape, NamedMaterial, Material, Translate, Scale, Rotate, ConcatTransform, ObjectBegin, ObjectEnd, AreaLightSource, LightSource, ReverseOrientation, Texture, MakeNamedMaterial, MakeNamedMedium, MediumInterface, Include, Import, Attribute, TransformBegin, TransformEnd, Identity, LookAt, CoordinateSystem, CoordSysTransform, ActiveTransform, TransformKeys, TransformTimes, ColorSpace, Option, Accelerator, Camera, Film, Integrator, PixelFilter, Sampler, WorldBegin, WorldEnd",
+            "3:15 error: unknown directive \"wörd\" | wörd | valid: AttributeBegin, AttributeEnd, Transform, ObjectInstance, Shape, NamedMaterial, Material, Translate, Scale, Rotate, ConcatTransform, ObjectBegin and 30 more",
         ],
     );
+}
+
+#[test]
+fn a_misspelt_world_begin_has_no_consequences() {
+    let found = complaints(&read("WorldBegn\nLightSource \"distant\"\nShape \"sphere\""));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("unknown directive \"WorldBegn\""), "{found:?}");
 }

@@ -46,10 +46,11 @@ fn the_mesh_is_that_of_the_file() {
 #[test]
 fn files_that_cannot_be_read_are_told() {
     let said = |name: &str| build("plymesh", Params::new().string("filename", name));
-    assert!(said("bad.ply").is_err_and(|m| m.contains("bad.ply: line 3: no")));
     assert!(
         build("plymesh", Params::new()).is_err_and(|m| m.contains("needs the parameter \"string filename\""))
     );
-    // Where missing files are forgiven, nothing is shown.
-    assert!(said("none.ply").is_ok_and(|g| matches!(g, Geometry::Mesh(m) if m.indices.is_empty())));
+    // Where missing and damaged files are forgiven, nothing is shown.
+    for name in ["none.ply", "bad.ply"] {
+        assert!(said(name).is_ok_and(|g| matches!(g, Geometry::Mesh(m) if m.indices.is_empty())), "{name}");
+    }
 }

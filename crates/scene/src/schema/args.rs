@@ -16,7 +16,7 @@ pub enum FloatInput {
     Texture(u32),
 }
 
-/// What becomes of a file that is missing.
+/// What becomes of an image or mesh that is missing or damaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Missing {
     /// An error: no picture.
@@ -105,7 +105,10 @@ impl<'a> Args<'a> {
         };
         if !fits {
             let wanted = if spec.ty.is_list() { format!("a multiple of {arity}") } else { arity.to_string() };
-            self.error_at(param.at.clone(), format!("\"{name}\" has {count} values, expected {wanted}"));
+            self.error_at(
+                param.at.clone(),
+                format!("\"{name}\" has {}, expected {wanted}", crate::counted(count, "value")),
+            );
             return;
         }
         match &param.data {
@@ -148,15 +151,21 @@ impl<'a> Args<'a> {
         self.node.at.clone()
     }
 
+    /// Where parameter `name` was written; where the node was, if no text names it.
+    fn place(&self, name: &str) -> Location {
+        let own = self.node.params.get(name).map(|param| param.at.clone());
+        own.filter(|at| *at != Location::None).unwrap_or_else(|| self.node.at.clone())
+    }
+
     /// Complains about parameter `name`, or about the node if it is not given.
     pub fn error(&mut self, name: &str, message: impl Into<String>) {
-        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        let at = self.place(name);
         self.error_at(at, message.into());
     }
 
     /// Warns about parameter `name`, or about the node if it is not given.
     pub fn warning(&mut self, name: &str, message: impl Into<String>) {
-        let at = self.node.params.get(name).map_or_else(|| self.node.at.clone(), |p| p.at.clone());
+        let at = self.place(name);
         self.diagnostics.warning(at, message);
     }
 
@@ -264,37 +273,36 @@ impl<'a> Args<'a> {
 
     /// The image that a [`ParamType::File`] names; `None` if it cannot be had, which was then complained about.
     pub fn image(&mut self, name: &str) -> Option<Arc<Image>> {
-        let Some((assets, missing)) = self.assets else {
+        let Some((assets, _)) = self.assets else {
             self.error(name, "no files can be read here");
             return None;
         };
-        self.found(name, assets.image(self.text(name)), missing, "a placeholder is shown")
+        self.found(name, assets.image(self.text(name)), "a placeholder is shown")
     }
 
     /// The mesh in the file that a [`ParamType::File`] names; `None` if it cannot be had, which was then complained
     /// about.
     pub fn mesh(&mut self, name: &str) -> Option<Arc<Mesh>> {
-        let Some((assets, missing)) = self.assets else {
+        let Some((assets, _)) = self.assets else {
             self.error(name, "no files can be read here");
             return None;
         };
-        self.found(name, assets.mesh(self.text(name)), missing, "nothing is shown")
+        self.found(name, assets.mesh(self.text(name)), "nothing is shown")
     }
 
-    fn found<T>(
-        &mut self,
-        name: &str,
-        asked: Result<T, AssetError>,
-        missing: Missing,
-        instead: &str,
-    ) -> Option<T> {
-        match asked {
+    fn found<T>(&mut self, name: &str, asked: Result<T, AssetError>, instead: &str) -> Option<T> {
+        let (assets, missing) = self.assets?;
+        let error = match asked {
             Ok(found) => return Some(found),
-            Err(error @ AssetError::Missing { .. }) if missing == Missing::Warn => {
-                self.warning(name, format!("{error}; {instead}"));
-            }
-            Err(error) => self.error(name, error.to_string()),
-        }
+            Err(error) => error,
+        };
+        let advice = assets.advice(&error);
+        let at = self.place(name);
+        let said = match missing {
+            Missing::Warn => self.diagnostics.warning(at, format!("{error}; {instead}")),
+            Missing::Refuse => self.error_at(at, error.to_string()),
+        };
+        said.hint = advice;
         None
     }
 
@@ -330,8 +338,8 @@ pub(super) fn range_text(spec: &ParamSpec) -> String {
     let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
     match spec.range {
         (min, max) if min.is_finite() && max.is_finite() => format!("{min} to {max}{unit}"),
-        (min, _) if min.is_finite() => format!("{min} or more{unit}"),
-        (_, max) if max.is_finite() => format!("{max} or less{unit}"),
+        (min, _) if min.is_finite() => format!("{min}{unit} or more"),
+        (_, max) if max.is_finite() => format!("{max}{unit} or less"),
         _ => format!("a finite number{unit}"),
     }
 }

@@ -1,4 +1,5 @@
 //! Accessors: typed arrays in buffer views. Every range is checked before the first byte is read.
+use durer_scene::counted;
 use rayon::prelude::*;
 
 use super::{
@@ -88,7 +89,7 @@ fn strided<'b, 'a>(
     let start = from.index_or("byteOffset", 0)?;
     let stride = view.stride.unwrap_or(size);
     if stride < size {
-        let message = format!("{stride} is less than the {size} bytes of an element");
+        let message = format!("{stride} is less than the {} of an element", counted(size, "byte"));
         return Err(view.element.fault_at("byteStride", message));
     }
     let reach =
@@ -96,7 +97,11 @@ fn strided<'b, 'a>(
     if reach.is_none_or(|reach| reach > view.length) {
         let (have, at) = (view.length, view.element.pointer());
         let message = format!(
-            "{count} elements of {stride} bytes from byte {start} do not fit {at}, which has {have} bytes"
+            "{} of {} from byte {start} {} not fit {at}, which has {}",
+            counted(count, "element"),
+            counted(stride, "byte"),
+            if count == 1 { "does" } else { "do" },
+            counted(have, "byte")
         );
         return Err(from.fault(message));
     }
@@ -205,7 +210,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
         convert: impl Fn([u8; S]) -> T + Sync,
     ) -> Checked<Vec<[T; N]>> {
         if self.lanes != N {
-            let message = format!("expected {N} numbers per element, found {}", self.lanes);
+            let message = format!("expected {} per element, found {}", counted(N, "number"), self.lanes);
             return Err(self.element.fault(message));
         }
         if let (Some(_), Some(which)) = (&self.sparse, which) {
@@ -228,7 +233,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
             for i in 0..sparse.count {
                 let place = sparse.place(i);
                 let Some(row) = rows.get_mut(place) else {
-                    let message = format!("index {place} in a list of {} elements", self.count);
+                    let message = format!("index {place} in a list of {}", counted(self.count, "element"));
                     return Err(sparse.element.fault(message));
                 };
                 *row = read(sparse.values, i);
@@ -257,7 +262,7 @@ impl<'b, 'a> Sparse<'b, 'a> {
     ) -> Checked<Self> {
         let count = element.required("count")?.index()?;
         if count > most {
-            return Err(element.fault(format!("replaces {count} of {most} elements")));
+            return Err(element.fault(format!("replaces {count} of {}", counted(most, "element"))));
         }
         let (indices, values) = (element.required("indices")?, element.required("values")?);
         let kind = indices.required("componentType")?;

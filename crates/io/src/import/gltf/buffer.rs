@@ -5,7 +5,7 @@ use base64::{
     Engine, alphabet,
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
-use durer_scene::{AssetError, Assets};
+use durer_scene::{AssetError, Assets, counted};
 use percent_encoding::percent_decode_str;
 use rayon::prelude::*;
 
@@ -140,7 +140,8 @@ impl<'a> Buffers<'a> {
         let size = element.required("byteLength")?.index()?;
         let reach = start.saturating_add(size);
         if reach > whole {
-            return Err(element.fault(format!("reaches to byte {reach}, but the buffer has {whole}")));
+            return Err(element
+                .fault(format!("reaches to byte {reach}, but the buffer has {}", counted(whole, "byte"))));
         }
         let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
         let bytes = bytes.map(|bytes| bytes.get(start..reach).unwrap_or_default());
@@ -171,14 +172,23 @@ fn load<'a>(
             Uri::Data(bytes) => Bytes::Owned(bytes),
             Uri::Path(path) => match assets.bytes(&path) {
                 Ok(bytes) => Bytes::File(bytes),
-                Err(error @ AssetError::Missing { .. }) => return Ok(Err(uri.fault(error.to_string()))),
-                Err(error) => return Err(uri.fault(error.to_string())),
+                Err(error) => {
+                    let hint = assets.advice(&error);
+                    let fault = Fault { hint, ..uri.fault(error.to_string()) };
+                    return if matches!(error, AssetError::Missing { .. }) {
+                        Ok(Err(fault))
+                    } else {
+                        Err(fault)
+                    };
+                }
             },
         },
     };
     let found = bytes.as_slice().len();
     if found < wanted {
-        return Err(length.fault(format!("{wanted} bytes announced, but the buffer has {found}")));
+        return Err(
+            length.fault(format!("announces {}, but the buffer has {found}", counted(wanted, "byte")))
+        );
     }
     Ok(Ok(bytes))
 }

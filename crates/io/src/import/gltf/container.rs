@@ -1,5 +1,9 @@
 //! The GLB container: a JSON chunk and at most one binary chunk (glTF 2.0 specification, section 4).
 
+use durer_scene::counted;
+
+use crate::import::content::beginning;
+
 /// `JSON` and `BIN\0` as little-endian numbers.
 const JSON: u32 = 0x4E4F_534A;
 const BIN: u32 = 0x004E_4942;
@@ -22,47 +26,109 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
 /// Says what is wrong with the container.
 pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     if !bytes.starts_with(b"glTF") {
-        return match bytes.trim_ascii_start() {
-            [] => Err("the file is empty".to_owned()),
-            [b'{', ..] => Ok(Chunks { json: bytes, bin: None }),
-            [0xef, 0xbb, 0xbf, ..] => Err("a byte order mark stands before the JSON, which glTF forbids: \
-                                           save the file as UTF-8 without it"
-                .to_owned()),
-            _ => Err("no glTF file: a .glb begins with the letters glTF, a .gltf with a brace {".to_owned()),
-        };
+        return json_alone(bytes);
     }
     let header = word(bytes, 4).zip(word(bytes, 8));
-    let (version, length) = header.ok_or("GLB header: the file ends after the magic word")?;
+    let (version, length) =
+        header.ok_or_else(|| cut_off("the file ends within the 12 bytes of its header"))?;
     if version != 2 {
-        return Err(format!("GLB container version {version}; durer reads version 2"));
+        return Err(format!("a GLB file of version {version}; durer reads version 2: export it as glTF 2.0"));
     }
-    let whole = bytes
-        .get(..length as usize)
-        .ok_or_else(|| format!("GLB header: {length} bytes announced, but the file has {}", bytes.len()))?;
+    let whole = bytes.get(..length as usize).ok_or_else(|| {
+        cut_off(&format!("its header announces {}, but the file has {}", many(length as usize), bytes.len()))
+    })?;
     let (mut json, mut bin) = (None, None);
     let mut at = 12;
     while at < whole.len() {
-        let (size, kind) =
-            word(whole, at).zip(word(whole, at + 4)).ok_or("GLB chunk header: the file ends within it")?;
-        let data = whole.get(at + 8..).and_then(|rest| rest.get(..size as usize)).ok_or_else(|| {
-            format!("GLB chunk at byte {at}: {size} bytes announced, but the file ends before")
-        })?;
-        if !size.is_multiple_of(4) {
-            return Err(format!("GLB chunk at byte {at}: its length, {size}, is not a multiple of 4"));
-        }
+        let chunk = Chunk::read(whole, at)?;
         let second = json.is_some_and(|j: &[u8]| at == 20 + j.len());
-        match kind {
-            JSON if at == 12 => json = Some(data),
-            _ if at == 12 => return Err("the first GLB chunk must be of type JSON".to_owned()),
-            BIN if second => bin = Some(data),
-            JSON | BIN => {
-                let what = "a GLB file holds one JSON chunk and, right behind it, at most one BIN chunk";
-                return Err(format!("GLB chunk at byte {at}: {what}"));
+        match chunk.kind {
+            JSON if at == 12 => json = Some(chunk.data),
+            other if at == 12 => {
+                return Err(export_again(&format!("the first chunk must be JSON, found {}", shown(other))));
+            }
+            BIN if second => bin = Some(chunk.data),
+            JSON => return Err(export_again(&format!("a second JSON chunk at byte {at}"))),
+            BIN if bin.is_some() => return Err(export_again(&format!("a second BIN chunk at byte {at}"))),
+            BIN => {
+                let message =
+                    format!("the BIN chunk at byte {at} does not stand right behind the JSON chunk");
+                return Err(export_again(&message));
             }
             // Chunks of unknown types are to be skipped.
             _ => {}
         }
-        at += 8 + size as usize;
+        at += 8 + chunk.data.len();
     }
-    Ok(Chunks { json: json.ok_or("a GLB file without JSON chunk")?, bin })
+    let none = || export_again("the file ends behind its header: there is no JSON chunk");
+    Ok(Chunks { json: json.ok_or_else(none)?, bin })
+}
+
+/// A file that is no container.
+fn json_alone(bytes: &[u8]) -> Result<Chunks<'_>, String> {
+    match bytes.trim_ascii_start() {
+        [] => Err("the file is empty".to_owned()),
+        [b'{' | b'[' | b'"' | b'0'..=b'9', ..] => Ok(Chunks { json: bytes, bin: None }),
+        [0xef, 0xbb, 0xbf, ..] => Err("a byte order mark stands before the JSON, which glTF forbids: \
+                                       save the file as UTF-8 without it"
+            .to_owned()),
+        _ => Err(format!(
+            "no glTF file: a .glb begins with the letters glTF, a .gltf with a brace {{; this one begins with {}",
+            beginning(bytes)
+        )),
+    }
+}
+
+/// A stretch of the container.
+struct Chunk<'a> {
+    kind: u32,
+    data: &'a [u8],
+}
+
+impl<'a> Chunk<'a> {
+    /// The chunk at byte `at`.
+    fn read(whole: &'a [u8], at: usize) -> Result<Self, String> {
+        let (size, kind) = word(whole, at).zip(word(whole, at + 4)).ok_or_else(|| {
+            cut_off(&format!("the file ends within the 8 bytes that begin the chunk at byte {at}"))
+        })?;
+        let rest = whole.get(at + 8..).unwrap_or_default();
+        let size = size as usize;
+        let data = rest.get(..size).ok_or_else(|| {
+            let (announced, kind) = (many(size), shown(kind));
+            let there = rest.len();
+            cut_off(&format!("the chunk {kind} at byte {at} announces {announced}, but only {there} follow"))
+        })?;
+        if !size.is_multiple_of(4) {
+            let message =
+                format!("the length of the chunk {} at byte {at}, {size}, is no multiple of 4", shown(kind));
+            return Err(export_again(&message));
+        }
+        Ok(Self { kind, data })
+    }
+}
+
+fn many(bytes: usize) -> String {
+    counted(bytes, "byte")
+}
+
+fn cut_off(what: &str) -> String {
+    format!("GLB: {what}; it was probably cut off: copy or download it again")
+}
+
+fn export_again(what: &str) -> String {
+    format!("GLB: {what}; export the file again")
+}
+
+/// The type of a chunk as its letters, else as its number.
+fn shown(kind: u32) -> String {
+    match kind {
+        JSON => "JSON".to_owned(),
+        BIN => "BIN".to_owned(),
+        other => match other.to_le_bytes() {
+            letters if letters.iter().all(u8::is_ascii_graphic) => {
+                format!("\"{}\"", letters.map(char::from).iter().collect::<String>())
+            }
+            _ => format!("{other:#010x}"),
+        },
+    }
 }

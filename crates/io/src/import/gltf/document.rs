@@ -24,6 +24,19 @@ pub(super) struct Document<'a> {
     budget: Arc<AtomicU64>,
 }
 
+/// How many there are of the list `list`, which is called by the plural of what it holds.
+pub(super) fn only(count: usize, list: &str) -> String {
+    let one = match list {
+        "meshes" => "mesh",
+        list => list.strip_suffix('s').unwrap_or(list),
+    };
+    match count {
+        0 => "there are none".to_owned(),
+        1 => format!("there is only 1 {one}"),
+        n => format!("there are only {n} {list}"),
+    }
+}
+
 impl<'a> Document<'a> {
     /// The document `root` of `file`.
     pub(super) fn new(root: Element<'a>, file: &str) -> Self {
@@ -60,14 +73,15 @@ impl<'a> Document<'a> {
             return Ok(item);
         }
         let count = self.root.get(list)?.map_or(Ok(0), |list| list.items().map(|items| items.len()))?;
-        Err(reference.fault(format!("refers to /{list}/{index}, but there are only {count} {list}")))
+        Err(reference.fault(format!("refers to /{list}/{index}, but {}", only(count, list))))
     }
     /// [`Self::item`] for the optional member `key` of `from`.
     pub(super) fn member(&self, from: &Element<'a>, key: &str, list: &str) -> Checked<Option<Element<'a>>> {
         from.get(key)?.map(|reference| self.item(list, &reference)).transpose()
     }
 
-    fn location(&self, pointer: &str) -> Location {
+    /// The place in the file that `pointer` leads to.
+    pub(super) fn location(&self, pointer: &str) -> Location {
         Location::Path { file: self.file.to_string(), pointer: pointer.to_owned() }
     }
     /// Adds an error, once: many things may fail by the same cause.
@@ -79,10 +93,8 @@ impl<'a> Document<'a> {
         if self.errors.replace(self.errors.get().saturating_add(1)) >= Diagnostics::MOST_ERRORS {
             return;
         }
-        let diagnostic = complaints.error(self.location(&fault.pointer), fault.message);
-        if let Some(hint) = fault.hint {
-            diagnostic.hint(hint);
-        }
+        let hint = fault.hint.or_else(|| user(&self.root, &fault.pointer));
+        complaints.error(self.location(&fault.pointer), fault.message).hint = hint;
     }
     /// Keeps a value; turns a fault into an error.
     pub(super) fn keep<T>(&self, checked: Checked<T>) -> Option<T> {
@@ -138,5 +150,68 @@ impl<'a> Document<'a> {
                 "the geometry of this file unpacks to far more than its buffers hold ({count} elements here)"
             ))),
         }
+    }
+}
+
+/// Which mesh uses the accessor that `pointer` leads into first, or is led into itself.
+fn user(root: &Element<'_>, pointer: &str) -> Option<String> {
+    let mut names = pointer.split('/').skip(1);
+    let (list, index) = (names.next()?, names.next()?.parse().ok()?);
+    match list {
+        "accessors" => first_mesh(root, index).ok()?,
+        "meshes" => {
+            let name = root.list_item(list, index).ok()??.name();
+            (!name.is_empty()).then(|| format!("the mesh is called \"{name}\""))
+        }
+        _ => None,
+    }
+}
+
+fn first_mesh(root: &Element<'_>, accessor: usize) -> Checked<Option<String>> {
+    let is_it = |value: Element<'_>| value.index().is_ok_and(|index| index == accessor);
+    for (number, mesh) in root.list("meshes")?.iter().enumerate() {
+        for primitive in mesh.list("primitives")? {
+            let attributes = primitive.get("attributes")?.into_iter().chain(primitive.list("targets")?);
+            let mut values = attributes.flat_map(|set| {
+                let values = set.keys().filter_map(|key| set.get(key).ok()?).collect::<Vec<_>>();
+                values.into_iter()
+            });
+            if values.any(is_it) || primitive.get("indices")?.is_some_and(is_it) {
+                let name = match mesh.name() {
+                    "" => String::new(),
+                    name => format!(", \"{name}\""),
+                };
+                return Ok(Some(format!("used by mesh {number}{name}")));
+            }
+        }
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{only, user};
+    use crate::import::gltf::element::Element;
+
+    #[test]
+    fn counts_are_told_in_words() {
+        assert_eq!(only(0, "bufferViews"), "there are none");
+        assert_eq!(only(1, "meshes"), "there is only 1 mesh");
+        assert_eq!(only(1, "accessors"), "there is only 1 accessor");
+        assert_eq!(only(2, "meshes"), "there are only 2 meshes");
+    }
+
+    #[test]
+    fn the_mesh_of_an_accessor_is_named() {
+        let value = serde_json::json!({"meshes": [
+            {"primitives": [{"attributes": {"POSITION": 0}}]},
+            {"name": "Body", "primitives": [{"attributes": {"POSITION": 2}, "indices": 3}]},
+        ]});
+        let said = |pointer| user(&Element::root(&value), pointer);
+        assert_eq!(said("/accessors/0").as_deref(), Some("used by mesh 0"));
+        assert_eq!(said("/accessors/3/count").as_deref(), Some("used by mesh 1, \"Body\""));
+        assert_eq!(said("/meshes/1/primitives/0").as_deref(), Some("the mesh is called \"Body\""));
+        assert_eq!(said("/accessors/9"), None);
+        assert_eq!(said("/nodes/0"), None);
     }
 }

@@ -22,7 +22,8 @@ pub(super) struct Element<'a> {
     pointer: String,
 }
 
-fn kind(value: &Value) -> &'static str {
+/// What messages call a value.
+pub(super) fn kind(value: &Value) -> &'static str {
     match value {
         Value::Null => "null",
         Value::Bool(_) => "a truth value",
@@ -131,7 +132,9 @@ impl<'a> Element<'a> {
         let items = self.items()?;
         let found = items.len();
         let numbers = items.map(|i| i.number()).collect::<Checked<Vec<f64>>>()?;
-        numbers.try_into().map_err(|_| self.fault(format!("expected {N} numbers, found {found}")))
+        numbers
+            .try_into()
+            .map_err(|_| self.fault(format!("expected {}, found {found}", durer_scene::counted(N, "number"))))
     }
 
     /// The number `key`, or `default` if it is missing.

@@ -40,6 +40,7 @@ impl Looks {
             };
             let sets = document.keep(sets(document, &element)).unwrap_or([0, 1]);
             textures.sets = sets;
+            textures.material.clone_from(&name);
             let params = document.keep(principled(document, &element, textures)).unwrap_or_default();
             looks.with_tangents.push(params.get(NORMAL_UV).map(|_| variants.len()));
             if params.get(NORMAL_UV).is_some() {

@@ -13,6 +13,7 @@ mod document;
 mod element;
 mod extension;
 mod instance;
+mod json;
 mod material;
 mod mesh;
 mod morph;
@@ -25,8 +26,7 @@ mod texture;
 
 use std::path::Path;
 
-use durer_scene::{Limits, Location, SceneDesc};
-use serde_json::Value;
+use durer_scene::{Limits, Location, SceneDesc, counted};
 
 use self::{
     buffer::Buffers,
@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
 fn parse(path: &Path, file: &str, limits: Limits, imported: &mut Imported) -> Result<(), String> {
     let bytes = read_file(path, file, limits).map_err(|e| e.to_string())?;
     let chunks = container::split(&bytes)?;
-    let value: Value = serde_json::from_slice(chunks.json).map_err(|e| format!("not valid JSON: {e}"))?;
+    let value = json::parse(chunks.json)?;
     let document = Document::new(Element::root(&value), file);
     if let Err(fault) = import(&document, chunks.bin, imported) {
         document.error(fault);
@@ -102,13 +102,15 @@ fn looks<'a>(
 }
 
 fn check_version(document: &Document<'_>) -> Checked<()> {
-    let asset = document.root.required("asset")?;
+    let missing = || document.root.fault("this is no glTF 2.0 file: it has no \"asset\"");
+    let asset = document.root.get("asset")?.ok_or_else(missing)?;
     let version = asset.required("version")?;
     let text = version.text()?;
-    let numbers = text.split_once('.').map(|(a, b)| (a.parse::<u32>(), b.parse::<u32>()));
-    match numbers {
-        Some((Ok(2), Ok(_))) => {}
-        Some((Ok(_), Ok(_))) => {
+    let major = text.split_once('.').map(|(major, _)| major.parse::<u32>());
+    let digits = |c: char| c.is_ascii_digit() || c == '.';
+    match major {
+        Some(Ok(2)) if text.chars().all(digits) => {}
+        Some(Ok(_)) => {
             let mut fault = version.fault(format!("durer reads glTF 2, but this file is glTF {text}"));
             fault.hint = Some("export the scene as glTF 2.0".to_owned());
             return Err(fault);
@@ -130,6 +132,17 @@ fn check_version(document: &Document<'_>) -> Checked<()> {
     }
 }
 
+fn no_scene(document: &Document<'_>) -> Checked<String> {
+    let (nodes, meshes) = (document.root.list("nodes")?.len(), document.root.list("meshes")?.len());
+    Ok(match (nodes, meshes) {
+        (0, 1..) => {
+            format!("the file has 0 nodes and {} that no node uses", counted(meshes, "mesh"))
+        }
+        (0, 0) => "the file has no nodes and no meshes".to_owned(),
+        _ => "the file holds no scene; all of its nodes are drawn".to_owned(),
+    })
+}
+
 /// The indices of the nodes at the top: those of the scene the file opens with, else of the first scene, else all
 /// nodes that are no other's child.
 fn roots<'a>(document: &Document<'a>, nodes: &Hierarchy<'a>) -> Checked<Vec<usize>> {
@@ -141,7 +154,7 @@ fn roots<'a>(document: &Document<'a>, nodes: &Hierarchy<'a>) -> Checked<Vec<usiz
     match scenes.get(number) {
         Some(scene) => scene.list("nodes")?.iter().map(|reference| nodes.index(reference)).collect(),
         None => {
-            document.warn(&document.root, "the file holds no scene; all of its nodes are drawn");
+            document.warn(&document.root, no_scene(document)?);
             Ok(nodes.roots.clone())
         }
     }

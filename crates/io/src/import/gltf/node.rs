@@ -4,7 +4,7 @@
 use durer_core::glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::{
-    document::Document,
+    document::{Document, only},
     element::{Checked, Element},
 };
 
@@ -68,8 +68,35 @@ impl<'a> Hierarchy<'a> {
         }
         match reached.iter().position(|reached| !reached).and_then(|i| self.nodes.get(i)) {
             None => Ok(()),
-            Some(node) => Err(node.fault_at("children", "a cycle: nodes must form trees, without cycles")),
+            Some(node) => {
+                let from = reached.iter().position(|reached| !reached).unwrap_or_default();
+                let message = format!("nodes must form trees, without cycles: {}", self.cycle(from));
+                Err(node.fault_at("children", message))
+            }
         }
+    }
+
+    /// The loop above the node `from`, to which no root leads: whoever goes up from there walks in circles.
+    fn cycle(&self, from: usize) -> String {
+        const MOST: usize = 8;
+        let mut parents = vec![from; self.nodes.len()];
+        for (index, children) in self.children.iter().enumerate() {
+            for &child in children {
+                if let Some(parent) = parents.get_mut(child) {
+                    *parent = index;
+                }
+            }
+        }
+        let up = |index: &usize| parents.get(*index).copied();
+        // After as many steps as there are nodes we are within the loop, wherever we began.
+        let within = std::iter::successors(Some(from), up).nth(self.nodes.len()).unwrap_or(from);
+        let upwards = std::iter::successors(up(&within), up).take_while(|&index| index != within);
+        let mut all: Vec<usize> = upwards.collect();
+        all.push(within);
+        all.reverse();
+        let shown: Vec<String> = all.iter().take(MOST).map(|index| format!("/nodes/{index}")).collect();
+        let more = if all.len() > MOST { " -> ..." } else { "" };
+        format!("{}{more} -> /nodes/{within}", shown.join(" -> "))
     }
 
     /// The node that `reference` names by index.
@@ -93,7 +120,7 @@ impl<'a> Hierarchy<'a> {
 }
 
 fn no_such_node(reference: &Element<'_>, index: usize, count: usize) -> super::element::Fault {
-    reference.fault(format!("refers to /nodes/{index}, but there are only {count} nodes"))
+    reference.fault(format!("refers to /nodes/{index}, but {}", only(count, "nodes")))
 }
 
 /// The placement of a translation, a rotation (x, y, z, w) and a scale; `None` if the rotation is none.

@@ -7,7 +7,7 @@ use durer_scene::{MaterialRef, SceneDesc, ShapeDesc, ShapeSource};
 use super::{
     buffer::Buffers,
     camera,
-    document::Document,
+    document::{Document, only},
     element::{Checked, Element},
     instance,
     material::Looks,
@@ -91,13 +91,16 @@ impl<'w, 'a> Walk<'w, 'a> {
     }
 
     fn light(&self, reference: &Element<'a>) -> Checked<Element<'a>> {
-        let lights = match self.document.root.extension("KHR_lights_punctual")? {
-            Some(extension) => extension.list_item("lights", reference.index()?)?,
-            None => None,
-        };
-        lights.ok_or_else(|| {
-            reference.fault("there is no such light in /extensions/KHR_lights_punctual/lights")
-        })
+        let index = reference.index()?;
+        let extension = self.document.root.extension("KHR_lights_punctual")?;
+        if let Some(extension) = &extension
+            && let Some(light) = extension.list_item("lights", index)?
+        {
+            return Ok(light);
+        }
+        let count = extension.map_or(Ok(0), |e| e.list("lights").map(|list| list.len()))?;
+        let message = format!("refers to /extensions/KHR_lights_punctual/lights/{index}, but ");
+        Err(reference.fault(message + &only(count, "lights")))
     }
 
     /// Weights of the morph targets, the node's before the mesh's, and the skin.

@@ -2,7 +2,7 @@
 use std::collections::HashMap;
 
 use durer_core::math::{Normal3, Point2, Point3};
-use durer_scene::Mesh;
+use durer_scene::{Mesh, counted};
 
 use super::{
     accessor::Accessor,
@@ -95,7 +95,11 @@ impl<'r, 'a> Columns<'r, 'a> {
         if accessor.count == self.vertices {
             return Ok(Some(accessor));
         }
-        let message = format!("{name} has {} elements for {} vertices", accessor.count, self.vertices);
+        let message = format!(
+            "{name} has {} for {}",
+            counted(accessor.count, "element"),
+            counted(self.vertices, "vertex")
+        );
         Err(accessor.element.fault(message))
     }
     /// The elements that the triangles use; none if they hold infinities: a renderer could do nothing with them.
@@ -182,8 +186,10 @@ impl<'r, 'a> Columns<'r, 'a> {
             let set: Vec<Influences> = joints.iter().zip(&weights).map(|(j, w)| zip(*j, *w)).collect();
             let missing = |(joint, weight): &&(u32, f32)| *weight != 0.0 && *joint as usize >= skin.len();
             if let Some((joint, _)) = set.iter().flatten().find(missing) {
-                let message =
-                    format!("a vertex follows joint {joint}, but the skin has {} joints", skin.len());
+                let message = format!(
+                    "a vertex follows joint {joint}, but the skin has {}",
+                    counted(skin.len(), "joint")
+                );
                 return Err(element.fault(message));
             }
             sets.push(set);
@@ -213,7 +219,11 @@ fn corners<'a>(
         None => Ok(corners),
         Some((at, index)) => {
             let vertices = positions.count;
-            let message = format!("index {index} at position {at}, but there are only {vertices} vertices");
+            let message = match vertices {
+                0 => format!("index {index} at position {at}, but there are no vertices"),
+                1 => format!("index {index} at position {at}, but there is only 1 vertex"),
+                n => format!("index {index} at position {at}, but there are only {n} vertices"),
+            };
             Err(accessor.element.fault(message))
         }
     }

@@ -1,7 +1,7 @@
 //! The shape of a whole document, used or not: types of JSON values, and references that lead somewhere (glTF 2.0,
 //! section 5). What values mean is checked where they are used.
 use super::{
-    document::Document,
+    document::{Document, only},
     element::{Checked, Element},
 };
 
@@ -161,6 +161,11 @@ fn part<'a>(document: &Document<'a>, object: &Element<'a>, members: &[(&str, Is)
             document.keep(value_is(document, &value, is));
         }
     }
+    if let Some(name) = object.get("name")?
+        && let Err(fault) = name.text()
+    {
+        document.warn(&name, format!("{}; the name is ignored", fault.message));
+    }
     // An object without members of interest is still to be one.
     object.get("").map(drop)
 }
@@ -232,7 +237,8 @@ fn variants(document: &Document<'_>) -> Checked<()> {
                 part(document, &mapping, &[("material", Ref("materials"))])?;
                 for index in mapping.list("variants")? {
                     if index.index()? >= variants.len() {
-                        let message = format!("refers to a variant, but there are only {}", variants.len());
+                        let message =
+                            format!("refers to a variant, but {}", only(variants.len(), "variants"));
                         return Err(index.fault(message));
                     }
                 }

@@ -2,7 +2,7 @@
 use std::collections::HashMap;
 
 use durer_core::math::float;
-use durer_scene::{Data, Node, Params, TextureDesc, TextureValue, ValueType};
+use durer_scene::{Data, Location, Node, Params, TextureDesc, TextureValue, ValueType};
 
 use super::{
     buffer::{Buffers, Uri, parse_uri},
@@ -31,6 +31,8 @@ pub(super) struct Textures<'b, 'a> {
     names: HashMap<String, String>,
     /// The sets of texture coordinates that a mesh has for the material at work.
     pub(super) sets: [usize; 2],
+    /// What messages call the material at work.
+    pub(super) material: String,
     /// The textures.
     pub(super) list: Vec<TextureDesc>,
 }
@@ -43,7 +45,16 @@ impl<'b, 'a> Textures<'b, 'a> {
         assets: &'b mut FileAssets,
     ) -> Self {
         let (filenames, names) = (HashMap::new(), HashMap::new());
-        Self { document, buffers, assets, filenames, names, sets: [0, 1], list: Vec::new() }
+        Self {
+            document,
+            buffers,
+            assets,
+            filenames,
+            names,
+            sets: [0, 1],
+            material: String::new(),
+            list: Vec::new(),
+        }
     }
 
     /// The name of the texture that the textureInfo object `info` describes; `None` if its image is of no use.
@@ -52,6 +63,7 @@ impl<'b, 'a> Textures<'b, 'a> {
         let Some(filename) = self.image(&texture)? else {
             return Ok(None);
         };
+        let (filename, at) = filename;
         let mut params = Params::new().string("filename", &filename);
         params = self.sampler(&texture, params)?;
         let (value, params) = match role {
@@ -77,14 +89,15 @@ impl<'b, 'a> Textures<'b, 'a> {
         let count = self.list.len();
         let name = self.names.entry(key).or_insert_with(|| {
             let name = format!("texture:{count}");
-            self.list.push(TextureDesc { name: name.clone(), value, node });
+            self.list.push(TextureDesc { name: name.clone(), value, node: Node { at, ..node } });
             name
         });
         Ok(Some(name.clone()))
     }
 
-    /// The file name of a texture's image; embedded ones are registered under a name of their own.
-    fn image(&mut self, texture: &Element<'a>) -> Checked<Option<String>> {
+    /// The file name of a texture's image and where that is described; embedded ones are registered under a name of
+    /// their own.
+    fn image(&mut self, texture: &Element<'a>) -> Checked<Option<(String, Location)>> {
         let Some(source) = texture.get("source")? else {
             let other: Vec<&str> = texture.get("extensions")?.iter().flat_map(Element::keys).collect();
             let why =
@@ -94,7 +107,8 @@ impl<'b, 'a> Textures<'b, 'a> {
         };
         let index = source.index()?;
         if let Some(name) = self.filenames.get(&index) {
-            return Ok(Some(name.clone()));
+            let at = self.document.location(&format!("/images/{index}"));
+            return Ok(Some((name.clone(), at)));
         }
         let image = self.document.item("images", &source)?;
         let embedded = format!("image:{index}");
@@ -112,8 +126,9 @@ impl<'b, 'a> Textures<'b, 'a> {
                 embedded
             }
         };
+        self.assets.used_by(&name, format!("material \"{}\"", self.material));
         self.filenames.insert(index, name.clone());
-        Ok(Some(name))
+        Ok(Some((name, self.document.location(image.pointer()))))
     }
 
     fn sampler(&self, texture: &Element<'a>, params: Params) -> Checked<Params> {

@@ -20,7 +20,7 @@ pub(super) fn resolve(
     word: Part<'_>,
     so_far: [usize; 3],
     total: [usize; 3],
-    lost: &mut usize,
+    lost: &mut [usize; 2],
 ) -> Result<[u32; 3], Wrong> {
     let mut fields = word.bytes.split(|&b| b == b'/');
     let mut indices = [NONE; 3];
@@ -37,7 +37,11 @@ pub(super) fn resolve(
         match u32::try_from(from_zero).ok().filter(|&i| (i as usize) < all) {
             Some(found) => *index = found,
             None if place == 0 => return Err(Wrong::Range(written)),
-            None => *lost += 1,
+            None => {
+                if let Some(lost) = lost.get_mut(place - 1) {
+                    *lost += 1;
+                }
+            }
         }
     }
     if fields.next().is_some() { Err(Wrong::Form) } else { Ok(indices) }
@@ -48,9 +52,9 @@ mod tests {
     use super::*;
 
     fn at(word: &str) -> (Result<[u32; 3], Wrong>, usize) {
-        let mut lost = 0;
+        let mut lost = [0; 2];
         let found = resolve(Part::whole(word.as_bytes()), [5, 4, 3], [10, 8, 6], &mut lost);
-        (found, lost)
+        (found, lost.iter().sum())
     }
 
     #[test]

@@ -53,6 +53,7 @@ pub(super) fn load(
     let (files, used) = wanted(text, model);
     let mut said = HashSet::new();
     let (mut all, mut seen): (Vec<(Material, String)>, HashSet<String>) = (Vec::new(), HashSet::new());
+    let mut libraries: Vec<Found> = Vec::new();
     for (line, at) in &files {
         for found in find(line, at, imported, complaints) {
             if !said.insert(found.path.clone()) {
@@ -62,8 +63,10 @@ pub(super) fn load(
             tell(problems, &found.path, &found.bytes, imported);
             let folder = found.path.replace('\\', "/");
             let folder = folder.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let library = libraries.len();
             let fresh = materials.into_iter().filter(|m| seen.insert(m.name.clone()));
-            all.extend(fresh.map(|m| (m, folder.to_owned())));
+            all.extend(fresh.map(|m| (Material { library, ..m }, folder.to_owned())));
+            libraries.push(found);
         }
     }
     let names: HashSet<&str> = used.iter().map(|(name, _)| name.as_str()).collect();
@@ -77,8 +80,13 @@ pub(super) fn load(
         materials.push(NamedNode { name: made.name.clone(), node });
     }
     imported.desc.textures = std::mem::take(&mut textures.list);
-    complaints.extend(textures.complaints());
-    complaints.extend(unknown(&files, used, &library));
+    let none_found = libraries.is_empty() && !files.is_empty();
+    let problems = textures.complaints(&all);
+    for (number, library) in libraries.iter().enumerate() {
+        let own = problems.iter().filter(|(of, _)| *of == number).map(|(_, problem)| problem.clone());
+        tell(own.collect(), &library.path, &library.bytes, imported);
+    }
+    complaints.extend(unknown(&files, used, &library, none_found));
     library
 }
 
@@ -87,8 +95,13 @@ fn unknown(
     files: &[(String, Range<usize>)],
     used: Vec<(String, Range<usize>)>,
     library: &Library,
+    none_found: bool,
 ) -> Vec<Complaint> {
     let missing = used.into_iter().filter(|(name, _)| library.get(name).is_none());
+    // A file that is not there was complained about: what it would hold is not to be told again.
+    if library.materials.is_empty() && none_found {
+        return Vec::new();
+    }
     if files.is_empty() {
         let first = missing.take(1);
         let message = "the file uses materials, but names no file that holds them (mtllib); drawn in grey";

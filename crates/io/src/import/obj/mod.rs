@@ -28,7 +28,7 @@ use self::{
 };
 use super::{
     Imported,
-    text::{Complaint, Part, is_continued, tell},
+    text::{Complaint, Part, grouped, is_continued, tell},
 };
 use crate::assets::read_file;
 
@@ -78,7 +78,7 @@ fn scene(text: Part<'_>, imported: &mut Imported) -> Vec<Complaint> {
     let pieces: Vec<Piece> =
         cuts.par_iter().zip(starts).map(|(cut, start)| piece::read(*cut, start, total)).collect();
     let mut model = Model::gather(pieces);
-    let mut complaints = std::mem::take(&mut model.complaints);
+    let mut complaints = grouped(std::mem::take(&mut model.complaints));
     complaints.retain({
         let mut errors = 0;
         move |c| {

@@ -2,7 +2,7 @@
 use std::ops::Range;
 
 use durer_core::math::{Normal3, Point2, Point3};
-use durer_scene::nearest_word;
+use durer_scene::{counted, nearest_word};
 
 use super::piece::{MOST_UNKNOWN, Piece, WHITE, WORDS};
 use crate::import::text::{Complaint, Part, Tally};
@@ -13,7 +13,8 @@ pub(super) struct Tallies {
     pub(super) lines: Tally,
     pub(super) free_form: Tally,
     pub(super) poor: Tally,
-    pub(super) lost: Tally,
+    pub(super) lost_uvs: Tally,
+    pub(super) lost_normals: Tally,
     pub(super) uneven: Tally,
     pub(super) bad_normals: Tally,
     pub(super) bad_uvs: Tally,
@@ -82,7 +83,8 @@ impl Tallies {
         self.lines.append(later.lines);
         self.free_form.append(later.free_form);
         self.poor.append(later.poor);
-        self.lost.append(later.lost);
+        self.lost_uvs.append(later.lost_uvs);
+        self.lost_normals.append(later.lost_normals);
         self.uneven.append(later.uneven);
         self.bad_normals.append(later.bad_normals);
         self.bad_uvs.append(later.bad_uvs);
@@ -91,20 +93,27 @@ impl Tallies {
         to.extend(
             self.lines.warn(|n| format!("{n} lines and points (l, p) are left out: only faces are drawn")),
         );
-        to.extend(
-            self.free_form
-                .warn(|n| format!("{n} lines are skipped: curves and free-form surfaces are not read")),
-        );
-        to.extend(self.poor.warn(|n| format!("{n} faces with fewer than 3 corners are left out")));
-        to.extend(self.lost.warn(|n| {
-            format!("{n} faces name texture coordinates or normals that are not there; drawn without them")
+        to.extend(self.free_form.warn(|n| {
+            let lines = if n == 1 { "1 line is".to_owned() } else { format!("{n} lines are") };
+            format!("{lines} skipped: curves and free-form surfaces are not read")
         }));
+        to.extend(self.poor.warn(|n| {
+            let verb = if n == 1 { "is" } else { "are" };
+            format!("{} with fewer than 3 corners {verb} left out", counted(n, "face"))
+        }));
+        let gone = |what: &str, n| {
+            let name = if n == 1 { "1 face names".to_owned() } else { format!("{n} faces name") };
+            format!("{name} {what} that are not there; drawn without them")
+        };
+        to.extend(self.lost_uvs.warn(|n| gone("texture coordinates", n)));
+        to.extend(self.lost_normals.warn(|n| gone("normals", n)));
         to.extend(self.uneven.warn(|n| {
             format!("{n} faces have texture coordinates or normals at some corners only; drawn without them")
         }));
         to.extend(
-            self.bad_normals.warn(|n| format!("{n} normals are not finite; taken as if they were missing")),
+            self.bad_normals
+                .warn(|n| format!("{n} normals are nan or infinite; taken as if they were missing")),
         );
-        to.extend(self.bad_uvs.warn(|n| format!("{n} texture coordinates are not finite; 0 is used")));
+        to.extend(self.bad_uvs.warn(|n| format!("{n} texture coordinates are nan or infinite; 0 is used")));
     }
 }

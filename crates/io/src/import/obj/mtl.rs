@@ -21,6 +21,8 @@ pub(super) struct Material {
     pub(super) pm: Option<f32>,
     pub(super) illum: Option<u32>,
     pub(super) maps: Vec<(Slot, Map)>,
+    /// The number of the file it is in.
+    pub(super) library: usize,
 }
 
 /// What an image is for.
@@ -40,6 +42,8 @@ pub(super) enum Slot {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Map {
     pub(super) file: String,
+    /// Where the file is named.
+    pub(super) at: Range<usize>,
     pub(super) scale: [f32; 2],
     pub(super) offset: [f32; 2],
     pub(super) clamp: bool,
@@ -164,7 +168,7 @@ impl Reader {
     fn number(&mut self, word: Part<'_>) -> Option<f32> {
         let number = float(word.bytes).filter(|v| v.is_finite());
         if number.is_none() {
-            self.warn(word.range(), format!("expected a number, found \"{}\"", word.shown()));
+            self.warn(word.range(), format!("\"{}\" is not a number", word.shown()));
         }
         number
     }
@@ -192,8 +196,14 @@ impl Reader {
             return None;
         }
         let red = self.number(first)?;
-        let (Some(green), Some(blue)) = (words.next(), words.next()) else {
-            return Some([red.max(0.0); 3]);
+        let (green, blue) = match (words.next(), words.next()) {
+            (Some(green), Some(blue)) => (green, blue),
+            (None, _) => return Some([red.max(0.0); 3]),
+            (Some(_), None) => {
+                let message = "expected 1 or 3 numbers, found 2: the first is used for all";
+                self.warn(key.range(), message.to_owned());
+                return Some([red.max(0.0); 3]);
+            }
         };
         Some([red, self.number(green)?, self.number(blue)?].map(|c| c.max(0.0)))
     }
@@ -202,6 +212,7 @@ impl Reader {
     fn map(&mut self, mut words: Words<'_>) -> Option<Map> {
         let mut map = Map {
             file: String::new(),
+            at: 0..0,
             scale: [1.0; 2],
             offset: [0.0; 2],
             clamp: false,
@@ -235,6 +246,7 @@ impl Reader {
                     }
                 }
                 _ => {
+                    map.at = rest.range();
                     map.file = rest.text().trim_matches('"').to_owned();
                     return Some(map);
                 }

@@ -205,7 +205,7 @@ impl Piece {
 
     fn number(&mut self, word: Part<'_>) -> f32 {
         float(word.bytes).unwrap_or_else(|| {
-            let message = format!("expected a number, found \"{}\"", word.shown());
+            let message = format!("\"{}\" is not a number", word.shown());
             self.complaints.push(Complaint::error(word.range(), message));
             0.0
         })
@@ -215,7 +215,7 @@ impl Piece {
     fn position(&mut self, line: Part<'_>, mut words: Words<'_>) {
         let position = self.numbers::<3>(line, words.clone());
         if !position.iter().all(|c| c.is_finite()) {
-            self.complaints.push(Complaint::error(line.range(), "a vertex is not finite"));
+            self.complaints.push(Complaint::error(line.range(), "a coordinate is nan or infinite"));
         }
         let more = words.by_ref().skip(3).map(|word| self.number(word)).take(4);
         let more: [Option<f32>; 4] = {
@@ -237,7 +237,7 @@ impl Piece {
         let first = self.corners.len();
         let here = Counts([self.positions.len(), self.uvs.len(), self.normals.len()]);
         let so_far = start.plus(&here).0;
-        let mut lost = 0;
+        let mut lost = [0; 2];
         for word in words {
             match corner::resolve(word, so_far, total.0, &mut lost) {
                 Ok(corner) => self.corners.push(corner),
@@ -248,15 +248,19 @@ impl Piece {
                 }
             }
         }
-        if lost > 0 {
-            self.tallies.lost.add(line.range());
+        let [uvs, normals] = lost;
+        if uvs > 0 {
+            self.tallies.lost_uvs.add(line.range());
+        }
+        if normals > 0 {
+            self.tallies.lost_normals.add(line.range());
         }
         if self.corners.len() < first + 3 {
             self.tallies.poor.add(line.range());
             self.corners.truncate(first);
             return;
         }
-        self.make_even(line, first, lost);
+        self.make_even(line, first, uvs + normals);
         self.ends.push(self.corners.len());
     }
 
@@ -298,10 +302,14 @@ fn complaint(word: Part<'_>, wrong: Wrong, total: [usize; 3]) -> Complaint {
     }
 }
 
-/// Names may hold a `#`, numbers do not.
+/// Names may hold a `#`, numbers do not, but for what old programs write in place of one: `1.#IND`, `-1.#INF`.
 fn without_comment(words: Words<'_>) -> Words<'_> {
     let rest = words.rest();
-    match memchr::memchr(b'#', rest.bytes) {
+    let is_number = |at: usize| {
+        let behind = rest.bytes.get(at + 1..).unwrap_or_default();
+        [&b"IND"[..], b"INF", b"QNAN", b"SNAN"].iter().any(|word| behind.starts_with(word))
+    };
+    match memchr::memchr_iter(b'#', rest.bytes).find(|&at| !is_number(at)) {
         Some(comment) => rest.split(comment).0.words(),
         None => words,
     }

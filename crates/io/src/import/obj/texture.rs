@@ -39,9 +39,16 @@ struct Known {
     bluish: bool,
 }
 
+/// An image that could not be had.
+struct Lost {
+    error: AssetError,
+    /// Where it was looked for.
+    advice: Option<String>,
+}
+
 /// The images, and the textures made of them so far.
 pub(super) struct Textures {
-    images: HashMap<(String, String), Result<Known, AssetError>>,
+    images: HashMap<(String, String), Result<Known, Lost>>,
     names: HashMap<String, String>,
     heights: BTreeMap<String, ()>,
     /// In the order in which they were asked for.
@@ -61,6 +68,7 @@ impl Textures {
                 let image = assets.image(&path)?;
                 Ok(Known { path, alpha: image.channels % 2 == 0, bluish: is_normal_map(&image) })
             });
+            let found = found.map_err(|error| Lost { advice: assets.advice(&error), error });
             ((folder, file), found)
         });
         Self { images: images.collect(), names: HashMap::new(), heights: BTreeMap::new(), list: Vec::new() }
@@ -110,17 +118,32 @@ impl Textures {
         Some(known.clone())
     }
 
-    /// What could not be read or used, in order of names.
-    pub(super) fn complaints(self) -> Vec<Complaint> {
-        let mut failed: Vec<String> =
-            self.images.into_values().filter_map(Result::err).map(|e| e.to_string()).collect();
-        failed.sort_unstable();
-        failed.dedup();
-        let failed = failed.into_iter().map(|e| format!("{e}; drawn without this image"));
-        let heights = self.heights.into_keys().map(|file| {
-            format!("{file} holds heights; only normal maps are supported: the surface is drawn smooth")
-        });
-        failed.chain(heights).map(|message| Complaint::whole(message).warning()).collect()
+    /// What could not be read or used, once, with the number of the file that names it first.
+    pub(super) fn complaints(mut self, materials: &[(Material, String)]) -> Vec<(usize, Complaint)> {
+        let mut all = Vec::new();
+        for (material, folder) in materials {
+            for (_, map) in &material.maps {
+                let key = (folder.clone(), map.file.clone());
+                let (message, hint) = match self.images.remove(&key) {
+                    Some(Err(Lost { error, advice })) => {
+                        (format!("{error}; drawn without this image"), advice)
+                    }
+                    _ if self.heights.remove(&map.file).is_some() => {
+                        let file = &map.file;
+                        let message = format!(
+                            "{file} holds heights; only normal maps are supported: the surface is drawn smooth"
+                        );
+                        (message, None)
+                    }
+                    _ => continue,
+                };
+                all.push((
+                    material.library,
+                    Complaint { hint, ..Complaint::error(map.at.clone(), message).warning() },
+                ));
+            }
+        }
+        all
     }
 }
 

@@ -11,7 +11,7 @@ use std::{
     sync::Arc,
 };
 
-use crate::gzip;
+use crate::{assets::looked_in, gzip};
 use durer_scene::{Diagnostics, Limits, Location, SourceId, Sources, Span};
 
 /// True if spans, which count bytes in 32 bits, can point at all of `text`.
@@ -108,13 +108,29 @@ impl Files {
         let found = match found.unwrap_or_else(|| folder.join(name).canonicalize()) {
             Ok(found) => found,
             Err(e) => {
-                let hint = format!("looked in {}", self.shown_root.join(shown(folder, &root)).display());
+                let relative = Path::new(name);
+                let parent = relative.parent().unwrap_or(Path::new(""));
+                let folder = self.shown_root.join(shown(folder, &root)).join(parent);
+                let last = relative.file_name().unwrap_or_default().to_string_lossy();
+                // The names of a folder outside are nobody's business.
+                let within = folder.canonicalize().is_ok_and(|folder| folder.starts_with(&root));
+                let hint = match within {
+                    true => looked_in(&folder, &last),
+                    false => format!("looked in {}/", folder.display()),
+                };
                 diagnostics.error(at, format!("{name}: {}", reason(&e))).hint(hint);
                 return None;
             }
         };
         if !found.starts_with(&root) {
-            diagnostics.error(at, format!("{name}: leads out of the scene's folder"));
+            diagnostics
+                .error(
+                    at,
+                    format!(
+                        "{name}: leads out of the scene's folder (for safety only files below it are read)"
+                    ),
+                )
+                .hint("copy the file into the scene's folder");
             return None;
         }
         if open.contains(&found) {

@@ -61,7 +61,8 @@ impl Input<'_> {
     pub(super) fn unexpected(&mut self, token: Token, expected: &str) -> Reported {
         let at = self.lexer.span(token);
         if token.kind == TokenKind::Unclosed {
-            self.error(at, "this string is not closed").hint("strings end on the line they begin on");
+            self.error(at, "this string is not closed")
+                .hint("a closing quote is missing: strings end on the line they begin on");
         } else {
             let found = self.describe(token);
             self.error(at, format!("expected {expected}, found {found}"));

@@ -40,6 +40,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
     let Imported { desc, assets, sources, diagnostics } = imported;
     if let Some((files, text)) = Files::main(path, assets.limits(), sources, diagnostics) {
         Parser::new(text, files, desc, sources, diagnostics).run();
+        retired::summarize(path, diagnostics);
     }
 }
 

@@ -4,7 +4,7 @@ use std::{
     path::PathBuf,
 };
 
-use durer_scene::{Diagnostics, Location, SceneDesc, Sources};
+use durer_scene::{Diagnostics, Location, SceneDesc, Sources, nearest_word};
 
 use super::{
     directive::{Directive, Place},
@@ -139,7 +139,14 @@ impl<'a> Parser<'a> {
             Some(hint) => {
                 self.input.error(at, format!("unknown directive \"{word}\"")).hint(hint);
             }
-            None => self.input.diagnostics.unknown(at, "directive", &word, Directive::words()),
+            None => {
+                self.input.diagnostics.unknown(at, "directive", &word, Directive::words());
+                // What follows is not to be complained about as standing before it.
+                let meant = nearest_word(&word, Directive::words());
+                if meant == Some(Directive::WorldBegin.word()) && !self.world_began {
+                    self.begin_world();
+                }
+            }
         }
         Reported
     }

@@ -1,6 +1,8 @@
 //! Words of pbrt-v2 and v3 that pbrt-v4 no longer has, each with what it writes instead. (Some kinds of material still answer
 //! to their old word: their schemas say which.)
-use durer_scene::Diagnostics;
+use std::path::Path;
+
+use durer_scene::{Diagnostics, Location, Severity, counted};
 
 use super::{input::Word, params::ParamList};
 
@@ -44,13 +46,49 @@ const PARAMS: &[(&str, &str)] = &[
     ("shadowalpha", "\"alpha\""),
 ];
 
+/// What the hints about such words begin with.
+const OLDER: &str = "this is an older pbrt's word; ";
+
+/// Says first, of a file of an older version, that it is one, and keeps a few of the errors as examples.
+pub(super) fn summarize(path: &Path, diagnostics: &mut Diagnostics) {
+    const MOST: usize = 5;
+    const HINTS: [&str; 4] = [OLDER, "this is pbrt-v2's word", "this is pbrt-v3's word", "pbrt-v4 writes"];
+    let is_old = |hint: &String| HINTS.iter().any(|begin| hint.starts_with(begin));
+    let old = diagnostics.iter().filter(|d| d.hint.as_ref().is_some_and(is_old)).count();
+    if old < 2 {
+        return;
+    }
+    let all = std::mem::take(diagnostics);
+    let at = Location::Path { file: path.display().to_string(), pointer: String::new() };
+    diagnostics.error(at.clone(), "this looks like a pbrt-v2 or pbrt-v3 file; durer reads pbrt-v4");
+    // One example of each.
+    let mut shown: Vec<&str> = Vec::new();
+    for said in all.iter().filter(|said| said.severity == Severity::Error) {
+        if shown.len() < MOST && !shown.contains(&said.message.as_str()) {
+            shown.push(&said.message);
+            diagnostics.error(said.at.clone(), said.message.clone()).hint.clone_from(&said.hint);
+        }
+    }
+    let more = all.error_count() - shown.len();
+    if more > 0 {
+        diagnostics.error(at, format!("{} like these", counted(more, "more error")));
+    }
+    for said in all.iter().filter(|said| said.severity != Severity::Error) {
+        let kept = match said.severity {
+            Severity::Warning => diagnostics.warning(said.at.clone(), said.message.clone()),
+            _ => diagnostics.note(said.at.clone(), said.message.clone()),
+        };
+        kept.hint.clone_from(&said.hint);
+    }
+}
+
 /// Complains about `kind` if it is a retired word for a `family`; says whether it did.
 pub(super) fn complain(family: &str, kind: &Word, diagnostics: &mut Diagnostics) -> bool {
     let Some((_, word, now)) = KINDS.iter().find(|line| line.0 == family && line.1 == kind.text) else {
         return false;
     };
     let message = format!("unknown {family} \"{word}\"");
-    diagnostics.error(kind.at, message).hint(format!("this is an older pbrt's word; pbrt-v4 has {now}"));
+    diagnostics.error(kind.at, message).hint(format!("{OLDER}pbrt-v4 has {now}"));
     true
 }
 
@@ -58,7 +96,7 @@ pub(super) fn complain(family: &str, kind: &Word, diagnostics: &mut Diagnostics)
 pub(super) fn sift(params: &mut ParamList, diagnostics: &mut Diagnostics) {
     params.retain(|param| {
         let Some((name, now)) = PARAMS.iter().find(|line| line.0 == param.name) else { return true };
-        let hint = format!("this is an older pbrt's word; pbrt-v4 has {now}");
+        let hint = format!("{OLDER}pbrt-v4 has {now}");
         diagnostics.error(param.at.clone(), format!("unknown parameter \"{name}\"")).hint(hint);
         false
     });

@@ -3,6 +3,7 @@
 //! In text, one line is one row in all files that programs write; such a body is cut at line ends and read by several
 //! threads. The format as most readers know it cares for words only: a body with more or fewer lines than rows is read
 //! word by word. Numbers behind the last column of a line are left out, as some programs write more than they announce.
+use durer_scene::counted;
 use rayon::prelude::*;
 
 use super::{
@@ -153,8 +154,8 @@ impl Plan<'_> {
 
 fn short(element: &Element, done: usize) -> Complaint {
     let Element { name, count, at, .. } = element;
-    let message =
-        format!("the header promises {count} rows of the element {name}, but the file ends after {done}");
+    let rows = counted(*count, "row");
+    let message = format!("the header promises {rows} of the element {name}, but the file ends after {done}");
     Complaint::error(at.clone(), message)
 }
 

@@ -3,7 +3,10 @@ use std::ops::Range;
 
 use durer_scene::nearest_word;
 
-use crate::import::text::{Complaint, Part, Words};
+use crate::import::{
+    content::{Content, beginning},
+    text::{Complaint, Part, Words},
+};
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,8 +133,7 @@ pub(super) fn parse(file: &[u8]) -> Result<Header, Complaint> {
     match lines.next() {
         Some(line) if line.bytes.trim_ascii() == b"ply" => {}
         _ => {
-            let start = 0..file.len().min(4);
-            return Err(Complaint::error(start, "not a PLY file: it does not begin with a line \"ply\""));
+            return Err(Complaint::whole(foreign(file)));
         }
     }
     let mut header = Header {
@@ -168,6 +170,15 @@ pub(super) fn parse(file: &[u8]) -> Result<Header, Complaint> {
         }
     }
     Err(Complaint::whole("the header does not end: there is no line \"end_header\""))
+}
+
+/// What a file is that does not begin as PLY does.
+fn foreign(file: &[u8]) -> String {
+    match Content::of(file).and_then(|content| content.complaint("PLY")) {
+        Some(said) => said,
+        None if file.is_empty() => "the file is empty".to_owned(),
+        None => format!("not a PLY file: it begins with {}, not with a line \"ply\"", beginning(file)),
+    }
 }
 
 fn unknown(word: Part<'_>) -> Complaint {

@@ -190,7 +190,9 @@ fn place(mesh: Mesh, texture: Option<String>, complaints: &mut Vec<Complaint>, i
     let texture = texture.filter(|_| !mesh.uvs.is_empty()).filter(|name| {
         let found = durer_scene::Assets::image(&imported.assets, name);
         if let Err(error) = &found {
-            complaints.push(Complaint::whole(format!("{error}; drawn without this image")).warning());
+            let said = Complaint::whole(format!("{error}; drawn without this image")).warning();
+            let hint = durer_scene::Assets::advice(&imported.assets, error);
+            complaints.push(Complaint { hint, ..said });
         }
         found.is_ok()
     });

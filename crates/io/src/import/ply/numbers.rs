@@ -2,6 +2,9 @@
 use super::header::Scalar;
 use crate::import::text::{Complaint, Part, float, leading_float, leading_integer};
 
+/// What is said where a text ends too early.
+pub(super) const MISSING: &str = "a number is missing behind this";
+
 /// Where numbers come from.
 pub(super) trait Numbers {
     /// The next number.
@@ -46,7 +49,7 @@ impl<'t> Written<'t> {
         let Some(word) = self.left() else {
             let end = self.last.range().end;
             let start = self.last.range().start.max(end.saturating_sub(60));
-            return Err(Complaint::error(start..end, "a number is missing behind this"));
+            return Err(Complaint::error(start..end, MISSING));
         };
         self.pass(word.bytes.len());
         Ok(word)

@@ -1,9 +1,10 @@
 //! Rows of the tables we know.
 use durer_core::math::{Normal3, Point2, Point3};
+use durer_scene::counted;
 
 use super::{
     header::{Element, Scalar, Shape},
-    numbers::Numbers,
+    numbers::{MISSING, Numbers},
 };
 use crate::import::{
     color::linear,
@@ -194,7 +195,7 @@ impl Rows {
                     if !value.is_finite() {
                         *value = f32::NAN;
                         if slot.is_some_and(|s| s < 3) {
-                            return Err(numbers.fault("a vertex is not finite".to_owned()));
+                            return Err(numbers.fault("a coordinate is nan or infinite".to_owned()));
                         }
                     }
                 }
@@ -239,9 +240,14 @@ impl Rows {
                         self.strips(item, length, vertices, numbers)?;
                         continue;
                     }
-                    for _ in 0..length {
-                        let corner = index(item, vertices, numbers)?;
-                        self.corners.push(corner);
+                    for there in 0..length {
+                        match index(item, vertices, numbers) {
+                            Ok(corner) => self.corners.push(corner),
+                            Err(wrong) if wrong.message == MISSING => {
+                                return Err(short_face(length, there, numbers));
+                            }
+                            Err(wrong) => return Err(wrong),
+                        }
                     }
                 }
                 Shape::List { count, item } if Some(i) == coords => {
@@ -292,6 +298,10 @@ impl Rows {
         }
         Ok(())
     }
+}
+
+fn short_face(says: usize, lists: usize, numbers: &impl Numbers) -> Complaint {
+    numbers.fault(format!("this face says {} but lists {lists}", counted(says, "corner")))
 }
 
 fn skip(shape: Shape, numbers: &mut impl Numbers) -> Result<(), Complaint> {

@@ -2,7 +2,11 @@
 use rayon::prelude::*;
 
 use super::{Solid, check};
-use crate::import::text::Complaint;
+use crate::import::{
+    content::{Content, beginning},
+    text::Complaint,
+};
+use durer_scene::counted;
 
 const HEADER: usize = 80;
 /// Normal, three corners, two spare bytes.
@@ -27,18 +31,38 @@ pub(super) fn read(bytes: &[u8], warnings: &mut Vec<Complaint>) -> Result<Vec<So
         let hint = "an STL file is text that begins with \"solid\", or 84 bytes and 50 for each triangle";
         Complaint::whole(message).hint(hint)
     };
-    let count = count(bytes).ok_or_else(|| {
-        wrong(format!("not an STL file: {} bytes are too few for a binary one", bytes.len()))
-    })?;
+    let foreign = || {
+        if let Some(content) = Content::of(bytes).and_then(|content| content.complaint("STL")) {
+            return Some(Complaint::whole(content));
+        }
+        // Text all the way into what would be the number of triangles.
+        let head = bytes.get(..bytes.len().min(HEADER + 4)).unwrap_or_default();
+        let text = head.iter().all(|b| matches!(b, b' '..=b'~' | b'\t' | b'\n' | b'\r'));
+        (text && head.len() > 3)
+            .then(|| wrong(format!("this is no STL file: it begins with {}", beginning(bytes))))
+    };
+    let Some(count) = count(bytes) else {
+        let short = || {
+            let there = counted(bytes.len(), "byte");
+            wrong(format!("this is no STL file: {there} are too few for a binary one"))
+        };
+        return Err(foreign().unwrap_or_else(short));
+    };
     let body = bytes.get(HEADER + 4..).unwrap_or_default();
     let there = body.len() / TRIANGLE;
     if count > there {
-        return Err(wrong(format!("the file claims {count} triangles, but ends after {there}")));
+        let cut = || {
+            let message =
+                format!("the file was cut off: {there} of {} are there", counted(count, "triangle"));
+            Complaint::whole(message).hint("export or copy it again")
+        };
+        return Err(foreign().unwrap_or_else(cut));
     }
     if body.len() != count * TRIANGLE {
         let more = body.len() - count * TRIANGLE;
-        warnings
-            .push(Complaint::whole(format!("{more} bytes behind the last triangle are ignored")).warning());
+        let verb = if more == 1 { "is" } else { "are" };
+        let message = format!("{} behind the last triangle {verb} ignored", counted(more, "byte"));
+        warnings.push(Complaint::whole(message).warning());
     }
     let body = body.get(..count * TRIANGLE).unwrap_or_default();
     let blocks: Vec<_> = body.chunks(BLOCK * TRIANGLE).enumerate().collect();

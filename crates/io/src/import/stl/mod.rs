@@ -102,7 +102,7 @@ fn merged(triangles: &[[[f32; 3]; 3]]) -> Mesh {
 fn check(corners: &[[f32; 3]; 3]) -> Result<(), &'static str> {
     match corners.iter().flatten().all(|c| c.is_finite()) {
         true => Ok(()),
-        false => Err("a corner is not finite"),
+        false => Err("a coordinate is nan or infinite"),
     }
 }
 

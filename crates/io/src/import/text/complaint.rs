@@ -1,5 +1,5 @@
 //! Complaints about stretches of a text, collected by several threads, and told with the text once all is read.
-use std::{ops::Range, sync::Arc};
+use std::{collections::HashMap, ops::Range, sync::Arc};
 
 use durer_scene::{Diagnostics, Location, Severity, Span};
 
@@ -78,6 +78,34 @@ impl Tally {
     }
 }
 
+/// Errors that differ only in numbers and quoted words become one: the first, with how many there are.
+pub(crate) fn grouped(complaints: Vec<Complaint>) -> Vec<Complaint> {
+    let mut kinds: HashMap<String, (usize, usize)> = HashMap::new();
+    let mut kept: Vec<Complaint> = Vec::new();
+    for complaint in complaints {
+        if complaint.severity == Severity::Error {
+            let first = kinds.entry(kind(&complaint.message)).or_insert((kept.len(), 0));
+            first.1 += 1;
+            if first.1 > 1 {
+                continue;
+            }
+        }
+        kept.push(complaint);
+    }
+    for (first, count) in kinds.into_values().filter(|(_, count)| *count > 1) {
+        if let Some(complaint) = kept.get_mut(first) {
+            complaint.message += &format!(" (the first of {count} such errors)");
+        }
+    }
+    kept
+}
+
+/// The message without numbers and quoted words.
+fn kind(message: &str) -> String {
+    let outside = message.split('"').step_by(2);
+    outside.flat_map(str::chars).filter(|c| !c.is_ascii_digit() && *c != '-').collect()
+}
+
 /// Tells the complaints about the file `name` with this `text`, of which a copy is kept only if one of them points into
 /// it.
 pub(crate) fn tell(complaints: Vec<Complaint>, name: &str, text: &[u8], imported: &mut Imported) {
@@ -115,5 +143,32 @@ fn readable(text: &[u8]) -> Arc<str> {
         Err(_) => {
             text.iter().map(|&b| if b.is_ascii() { char::from(b) } else { '?' }).collect::<String>().into()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_of_one_kind_are_told_once() {
+        let error = |at, message: &str| Complaint::error(at..at + 1, message);
+        let all = vec![
+            error(1, "there is no vertex 12: the file has 8"),
+            error(2, "there is no vertex 9: the file has 8"),
+            error(3, "\"a\" is not a number"),
+            error(4, "\"b\" is not a number").warning(),
+            error(5, "\"c\" is not a number").warning(),
+        ];
+        let told = grouped(all);
+        let messages: Vec<&str> = told.iter().map(|c| c.message.as_str()).collect();
+        let expected = [
+            "there is no vertex 12: the file has 8 (the first of 2 such errors)",
+            "\"a\" is not a number",
+            "\"b\" is not a number",
+            "\"c\" is not a number",
+        ];
+        assert_eq!(messages, expected);
+        assert_eq!(told.first().and_then(|c| c.at.clone()), Some(1..2));
     }
 }

@@ -5,6 +5,6 @@ mod complaint;
 mod lines;
 mod number;
 
-pub(crate) use complaint::{Complaint, Tally, tell};
+pub(crate) use complaint::{Complaint, Tally, grouped, tell};
 pub(crate) use lines::{Part, Words, is_continued};
 pub(crate) use number::{float, integer, leading_float, leading_integer};
