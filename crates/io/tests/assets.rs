@@ -120,3 +120,24 @@ fn scene_files_open_in_any_letter_case_and_packed() {
     assert!(said.message.ends_with("a.fbx: not a scene format durer reads"));
     assert!(said.hint.as_deref().is_some_and(|h| h.contains(".obj, .ply, .stl")), "{said:?}");
 }
+
+/// Opening a pipe to which nobody writes would wait for ever.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_not_opened() {
+    let (root, assets) = scene();
+    let folder = root.path().join("scene");
+    for name in ["p.obj", "p.ply", "p.stl", "p.gltf", "p.pbrt", "p.png"] {
+        let made = std::process::Command::new("mkfifo").arg(folder.join(name)).status().expect("mkfifo");
+        assert!(made.success());
+        if name != "p.png" {
+            let scene = durer_io::import::open(&folder.join(name), Limits::default());
+            let said = scene.diagnostics.iter().next().expect("an error");
+            assert!(said.message.ends_with("not a file"), "{name}: {said:?}");
+        }
+    }
+    assert_eq!(assets.image("p.png").expect_err("a pipe").to_string(), "p.png: not a file");
+    fs::write(folder.join("a.pbrt"), "Include \"p.pbrt\"\n").expect("file");
+    let scene = durer_io::import::open(&folder.join("a.pbrt"), Limits::default());
+    assert!(scene.diagnostics.iter().any(|d| d.message.ends_with("p.pbrt: not a file")));
+}
