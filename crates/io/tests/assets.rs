@@ -100,7 +100,23 @@ fn what_unpacks_to_more_than_the_limit_is_refused() {
     let limits = Limits { file_bytes: 1 << 20, ..Limits::default() };
     let assets = FileAssets::new(root.path().join("scene"), limits);
     let error = assets.bytes("bomb.gz").expect_err("too long");
-    assert_eq!(error.to_string(), "bomb.gz: unpacks to more than 1048576 bytes, the limit");
+    assert_eq!(error.to_string(), "bomb.gz: unpacks to more than 1048576 bytes (a damaged or hostile file)");
+}
+
+/// Zeros get a thousand times smaller: no scene does.
+#[test]
+fn what_is_packed_too_well_is_refused_before_the_limit() {
+    let (root, assets) = scene();
+    let folder = root.path().join("scene");
+    fs::write(folder.join("small.gz"), packed(&vec![0; 64 << 20])).expect("file");
+    assert_eq!(assets.bytes("small.gz").expect("readable").len(), 64 << 20);
+    fs::write(folder.join("bomb.gz"), packed(&vec![0; 96 << 20])).expect("file");
+    let said = "bomb.gz: unpacks to more than 67108864 bytes (a damaged or hostile file)";
+    assert_eq!(assets.bytes("bomb.gz").expect_err("too long").to_string(), said);
+    let limits = Limits { unpacked_bytes: 5, ..Limits::default() };
+    fs::write(folder.join("long.gz"), packed(b"123456")).expect("file");
+    let error = FileAssets::new(folder, limits).bytes("long.gz").expect_err("too long").to_string();
+    assert!(error.starts_with("long.gz: unpacks to more than 5 bytes"), "{error}");
 }
 
 #[test]
