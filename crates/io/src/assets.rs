@@ -186,12 +186,13 @@ pub(crate) fn read_file(file: &Path, name: &str, limits: Limits) -> Result<Vec<u
         path: name.to_owned(),
         reason: format!("{length} bytes, but the limit is {}", limits.file_bytes),
     };
-    let handle = File::open(file).map_err(fail)?;
-    let metadata = handle.metadata().map_err(fail)?;
+    // Before it is opened: that waits for ever on a pipe to which nobody writes.
+    let metadata = file.metadata().map_err(fail)?;
     if !metadata.is_file() {
         let reason = "not a file".to_owned();
         return Err(AssetError::Io { path: name.to_owned(), reason });
     }
+    let handle = File::open(file).map_err(fail)?;
     if metadata.len() > limits.file_bytes {
         return Err(too_long(metadata.len()));
     }

@@ -100,7 +100,23 @@ fn what_unpacks_to_more_than_the_limit_is_refused() {
     let limits = Limits { file_bytes: 1 << 20, ..Limits::default() };
     let assets = FileAssets::new(root.path().join("scene"), limits);
     let error = assets.bytes("bomb.gz").expect_err("too long");
-    assert_eq!(error.to_string(), "bomb.gz: unpacks to more than 1048576 bytes, the limit");
+    assert_eq!(error.to_string(), "bomb.gz: unpacks to more than 1048576 bytes (a damaged or hostile file)");
+}
+
+/// Zeros get a thousand times smaller: no scene does.
+#[test]
+fn what_is_packed_too_well_is_refused_before_the_limit() {
+    let (root, assets) = scene();
+    let folder = root.path().join("scene");
+    fs::write(folder.join("small.gz"), packed(&vec![0; 64 << 20])).expect("file");
+    assert_eq!(assets.bytes("small.gz").expect("readable").len(), 64 << 20);
+    fs::write(folder.join("bomb.gz"), packed(&vec![0; 96 << 20])).expect("file");
+    let said = "bomb.gz: unpacks to more than 67108864 bytes (a damaged or hostile file)";
+    assert_eq!(assets.bytes("bomb.gz").expect_err("too long").to_string(), said);
+    let limits = Limits { unpacked_bytes: 5, ..Limits::default() };
+    fs::write(folder.join("long.gz"), packed(b"123456")).expect("file");
+    let error = FileAssets::new(folder, limits).bytes("long.gz").expect_err("too long").to_string();
+    assert!(error.starts_with("long.gz: unpacks to more than 5 bytes"), "{error}");
 }
 
 #[test]
@@ -136,4 +152,25 @@ fn missing_files_are_told_with_the_folder_and_the_nearest_name() {
     assert_eq!(advice("textures/wood.png"), format!("looked in {}/", folder.display()));
     assert!(advice("tex/logo.png").ends_with("/tex/, which is not there"));
     assert_eq!(advice("../logo.png"), "copy the file into the scene's folder");
+}
+
+/// Opening a pipe to which nobody writes would wait for ever.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_not_opened() {
+    let (root, assets) = scene();
+    let folder = root.path().join("scene");
+    for name in ["p.obj", "p.ply", "p.stl", "p.gltf", "p.pbrt", "p.png"] {
+        let made = std::process::Command::new("mkfifo").arg(folder.join(name)).status().expect("mkfifo");
+        assert!(made.success());
+        if name != "p.png" {
+            let scene = durer_io::import::open(&folder.join(name), Limits::default());
+            let said = scene.diagnostics.iter().next().expect("an error");
+            assert!(said.message.ends_with("not a file"), "{name}: {said:?}");
+        }
+    }
+    assert_eq!(assets.image("p.png").expect_err("a pipe").to_string(), "p.png: not a file");
+    fs::write(folder.join("a.pbrt"), "Include \"p.pbrt\"\n").expect("file");
+    let scene = durer_io::import::open(&folder.join("a.pbrt"), Limits::default());
+    assert!(scene.diagnostics.iter().any(|d| d.message.ends_with("p.pbrt: not a file")));
 }

@@ -326,3 +326,38 @@ fn a_glb_of_a_million_triangles_imports_in_seconds() {
     println!("{} triangles in {time:?}", 2 * SIDE * SIDE);
     assert!(time.as_secs() < 5, "{time:?}");
 }
+
+/// A thousand nodes that show a mesh of a thousand primitives are a million shapes, made one by one; more are refused
+/// before the first.
+#[test]
+fn nodes_times_primitives_are_limited() {
+    let scene = |nodes: usize, primitives: usize| {
+        let mut document = document(json!({"attributes": {"POSITION": 0}}));
+        let primitive = document["meshes"][0]["primitives"][0].clone();
+        document["meshes"][0]["primitives"] = json!(vec![primitive; primitives]);
+        document["nodes"] = json!(vec![json!({"mesh": 0}); nodes]);
+        document["scenes"] = json!([{"nodes": (0..nodes).collect::<Vec<_>>()}]);
+        import(document, &zigzag())
+    };
+    let many = scene(300, 400);
+    assert!(!many.diagnostics.has_errors(), "{:?}", many.diagnostics);
+    assert_eq!((many.desc.shapes.len(), many.desc.meshes.len()), (120_000, 1));
+    let bomb = scene(2000, 2000);
+    assert_eq!(bomb.diagnostics.error_count(), 1);
+    let (_, message) = first(&bomb, Severity::Error);
+    assert!(message.starts_with("this file makes 4000000 shapes (nodes times primitives)"), "{message}");
+    assert!(bomb.desc.shapes.is_empty());
+}
+
+/// What would be unpacked is told once, not once for each primitive.
+#[test]
+fn arrays_of_zeros_that_need_no_bytes_are_limited_and_told_once() {
+    let mut document = document(json!({"attributes": {"POSITION": 0}}));
+    document["accessors"] =
+        json!(vec![json!({"componentType": 5126, "type": "VEC3", "count": 900_000_000}); 30]);
+    let all: Vec<Value> = (0..30).map(|i| json!({"attributes": {"POSITION": i}})).collect();
+    document["meshes"][0]["primitives"] = json!(all);
+    let bomb = import(document, &zigzag());
+    assert_eq!(bomb.diagnostics.error_count(), 1, "{:?}", bomb.diagnostics);
+    assert!(first(&bomb, Severity::Error).1.contains("unpacks to far more than its buffers hold"));
+}

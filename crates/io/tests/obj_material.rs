@@ -199,3 +199,17 @@ fn wrong_lines_are_told_in_the_mtl_file() {
     assert_eq!(said(&scene, Severity::Warning), expected);
     assert!(said(&scene, Severity::Error).is_empty());
 }
+
+#[test]
+fn lines_that_name_thousands_of_material_files_are_cut_off() {
+    let words: Vec<String> = (0..5000).map(|i| format!("m{i}")).collect();
+    let lines: String = words.iter().map(|w| format!("mtllib {w}.mtl\n")).collect();
+    for head in [format!("mtllib {}\n", words.join(" ")), lines] {
+        let scene = import(&[("a.obj", format!("{head}{TRIANGLE}f 1 2 3\n").as_bytes())]);
+        assert_eq!(scene.desc.shapes.len(), 1);
+        let warnings = said(&scene, Severity::Warning);
+        assert!(warnings.len() <= 65, "{} warnings", warnings.len());
+        let last = "so many material files are named that only the first 64 are looked for";
+        assert!(warnings.last().is_some_and(|w| w.ends_with(last)), "{warnings:?}");
+    }
+}

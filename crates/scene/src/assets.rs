@@ -8,6 +8,8 @@ use crate::Mesh;
 pub struct Limits {
     /// Largest file read, in bytes, after decompression.
     pub file_bytes: u64,
+    /// Most bytes that one packed file may unpack to; never more than `file_bytes`.
+    pub unpacked_bytes: u64,
     /// Most pixels of one image.
     pub image_pixels: u64,
     /// Deepest nesting of nodes, includes or attribute blocks.
@@ -16,7 +18,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { file_bytes: 8 << 30, image_pixels: 1 << 28, depth: 256 }
+        Self { file_bytes: 8 << 30, unpacked_bytes: 2 << 30, image_pixels: 1 << 28, depth: 256 }
     }
 }
 

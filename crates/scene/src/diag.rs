@@ -39,7 +39,7 @@ impl Diagnostics {
     pub const MOST_ERRORS: usize = 50;
 
     fn push(&mut self, severity: Severity, at: Location, message: String) -> &mut Diagnostic {
-        self.list.push(Diagnostic { severity, at, message, hint: None });
+        self.list.push(Diagnostic { severity, at, message: shortened(message), hint: None });
         let last = self.list.len() - 1;
         #[expect(clippy::indexing_slicing, reason = "pushed the line above")]
         &mut self.list[last]
@@ -113,8 +113,45 @@ pub fn listed(words: &[&str]) -> String {
 impl Diagnostic {
     /// Sets what to do about it.
     pub fn hint(&mut self, hint: impl Into<String>) -> &mut Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(shortened(hint.into()));
         self
+    }
+}
+
+/// Bytes of a message that is told as it is.
+const SHORT: usize = 400;
+/// Characters of a quoted word or of a path that a longer message keeps.
+const KEPT: (usize, usize) = (40, 160);
+/// Characters of the longest message.
+const LONGEST: usize = 2000;
+
+/// A message in which the words that a file had too many letters for are cut: quoted ones to 40 characters, others to
+/// 160, and all of it to 2000.
+fn shortened(message: String) -> String {
+    if message.len() <= SHORT {
+        return message;
+    }
+    let mut short = String::new();
+    let (mut quoted, mut run, mut cut) = (false, 0, 0);
+    for c in message.chars().take(1 << 20) {
+        if c == '"' || (c.is_whitespace() && !quoted) {
+            quoted ^= c == '"';
+            (run, cut) = (0, 0);
+        } else {
+            run += 1;
+            if run > if quoted { KEPT.0 } else { KEPT.1 } {
+                cut += 1;
+                if cut == 1 {
+                    short.push_str("...");
+                }
+                continue;
+            }
+        }
+        short.push(c);
+    }
+    match short.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", short.get(..end).unwrap_or_default()),
+        None => short,
     }
 }
 
@@ -146,5 +183,24 @@ mod tests {
             said.iter().next().and_then(|d| d.hint.clone()),
             Some("the scene defines no materials".into())
         );
+    }
+
+    #[test]
+    fn words_that_fill_books_are_cut_and_what_follows_them_is_kept() {
+        let long = "a".repeat(1 << 18);
+        let mut list = Diagnostics::default();
+        list.unknown(Location::None, "shape", &long, ["sphere"]);
+        list.error(Location::None, format!("{long}.png: file not found"));
+        list.error(Location::None, "one word ".repeat(1000)).hint(&long);
+        list.error(Location::None, format!("expected \"b\", found \"{}\", here", "c d".repeat(999)));
+        let said: Vec<&str> = list.iter().map(|d| d.message.as_str()).collect();
+        assert_eq!(said[0], format!("unknown shape \"{}...\"", &long[..40]));
+        assert_eq!(said[1], format!("{}... file not found", &long[..160]));
+        assert_eq!(said[2].len(), LONGEST + 3);
+        assert_eq!(said[3], format!("expected \"b\", found \"{}...\", here", &"c d".repeat(14)[..40]));
+        assert_eq!(list.list[2].hint.as_ref().map(String::len), Some(163));
+        let path = "b".repeat(300);
+        list.error(Location::None, format!("{path}: file not found"));
+        assert_eq!(list.list[4].message, format!("{path}: file not found"));
     }
 }

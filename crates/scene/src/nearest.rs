@@ -1,8 +1,14 @@
 //! "Did you mean ...?"
 
+/// Bytes of a word that may be one that people type: comparing longer ones takes long and finds nothing.
+const LONGEST: usize = 64;
+
 /// The valid word nearest to `word`, if one is near enough to be a slip of the finger. Of short words nearly all are near
 /// each other: up to three letters only one may differ, and words of less than three have no neighbours.
 pub fn nearest_word<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if word.len() > LONGEST {
+        return None;
+    }
     let lower = word.to_lowercase();
     let near_enough = |distance: usize, v: &str| {
         let least = v.chars().count().min(word.chars().count());
@@ -14,6 +20,7 @@ pub fn nearest_word<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) ->
     };
     valid
         .into_iter()
+        .filter(|v| v.len() <= 2 * LONGEST)
         .map(|v| (strsim::damerau_levenshtein(&lower, &v.to_lowercase()), v))
         .filter(|(distance, v)| near_enough(*distance, v))
         .min_by_key(|(distance, _)| *distance)
@@ -33,5 +40,12 @@ mod tests {
         assert_eq!(nearest_word("foo", ["fo", "f", "vn"]), None);
         assert_eq!(nearest_word("bas", ["bar", "o"]), Some("bar"));
         assert_eq!(nearest_word("kd", ["Kd", "Ks"]), Some("Kd"));
+    }
+
+    #[test]
+    fn words_that_nobody_types_are_not_compared() {
+        let long = "a".repeat(LONGEST);
+        assert_eq!(nearest_word(&long[1..], [long.as_str()]), Some(long.as_str()));
+        assert_eq!(nearest_word(&format!("{long}b"), [long.as_str()]), None);
     }
 }

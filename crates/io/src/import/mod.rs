@@ -9,6 +9,7 @@ mod obj;
 pub mod pbrt;
 pub(crate) mod ply;
 mod polygon;
+mod polygon_grid;
 mod stl;
 mod text;
 mod unify;

@@ -4,7 +4,7 @@ use std::{
     collections::BTreeSet,
     sync::{
         Arc,
-        atomic::{AtomicU64, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
 };
 
@@ -22,7 +22,11 @@ pub(super) struct Document<'a> {
     errors: Cell<usize>,
     warnings: Cell<usize>,
     budget: Arc<AtomicU64>,
+    exhausted: Arc<AtomicBool>,
 }
+
+/// What is said, once, of a file whose budget is spent.
+const FAR_MORE: &str = "the geometry of this file unpacks to far more than its buffers hold";
 
 /// How many there are of the list `list`, which is called by the plural of what it holds.
 pub(super) fn only(count: usize, list: &str) -> String {
@@ -42,12 +46,13 @@ impl<'a> Document<'a> {
     pub(super) fn new(root: Element<'a>, file: &str) -> Self {
         let (complaints, said) = (RefCell::default(), RefCell::default());
         let (errors, warnings) = (Cell::new(0), Cell::new(0));
-        Self { root, file: file.into(), complaints, said, errors, warnings, budget: Arc::default() }
+        let (budget, exhausted) = (Arc::default(), Arc::default());
+        Self { root, file: file.into(), complaints, said, errors, warnings, budget, exhausted }
     }
     /// The same document with complaints of its own, for work on another thread; the budget stays shared.
     pub(super) fn apart(&self) -> Self {
         let apart = Self::new(self.root.clone(), &self.file);
-        Self { budget: Arc::clone(&self.budget), ..apart }
+        Self { budget: Arc::clone(&self.budget), exhausted: Arc::clone(&self.exhausted), ..apart }
     }
     /// Takes over the complaints of [`Self::apart`], less those that were said before.
     pub(super) fn absorb(&self, other: Self) {
@@ -86,7 +91,11 @@ impl<'a> Document<'a> {
     }
     /// Adds an error, once: many things may fail by the same cause.
     pub(super) fn error(&self, fault: Fault) {
-        if !self.said.borrow_mut().insert(format!("{} {}", fault.pointer, fault.message)) {
+        let key = match fault.message.starts_with(FAR_MORE) {
+            true => FAR_MORE.to_owned(),
+            false => format!("{} {}", fault.pointer, fault.message),
+        };
+        if !self.said.borrow_mut().insert(key) {
             return;
         }
         let mut complaints = self.complaints.borrow_mut();
@@ -146,10 +155,23 @@ impl<'a> Document<'a> {
         let take = |left: u64| left.checked_sub(bytes);
         match self.budget.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take) {
             Ok(_) => Ok(()),
-            Err(_) => Err(at.fault(format!(
-                "the geometry of this file unpacks to far more than its buffers hold ({count} elements here)"
-            ))),
+            Err(_) => {
+                self.exhausted.store(true, Ordering::Relaxed);
+                Err(at.fault(format!("{FAR_MORE} ({count} elements here)")))
+            }
         }
+    }
+    /// Complains if there are more than `most` of `what`; nothing is to be made then.
+    pub(super) fn at_most(&self, at: &Element<'_>, count: usize, most: usize, what: &str) -> Checked<()> {
+        if count <= most {
+            return Ok(());
+        }
+        self.exhausted.store(true, Ordering::Relaxed);
+        Err(at.fault(format!("this file makes {count} {what}; durer draws at most {most} of one file")))
+    }
+    /// True if the file wants more than it may have: what follows need not be looked at.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.exhausted.load(Ordering::Relaxed)
     }
 }
 

@@ -122,6 +122,9 @@ impl<'a> Meshes<'a> {
         let made: Vec<_> = jobs
             .into_par_iter()
             .map(|(own, wish)| {
+                if own.is_exhausted() {
+                    return (None, own);
+                }
                 let mesh = own.keep(primitive::build(&own, buffers, &wish, skins)).flatten();
                 (mesh.map(Arc::new), own)
             })

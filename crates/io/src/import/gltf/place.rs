@@ -1,5 +1,5 @@
 //! What the nodes of one scene carry, placed in the world: shapes, cameras and lights.
-use std::collections::HashMap;
+use std::{collections::HashMap, sync::Arc};
 
 use durer_core::{Id, glam::DAffine3, math::Motion};
 use durer_scene::{MaterialRef, SceneDesc, ShapeDesc, ShapeSource};
@@ -24,6 +24,15 @@ struct Pending {
     material: Option<MaterialRef>,
 }
 
+/// Most shapes of one file: nodes times primitives, of which a short file can make any number.
+const MOST_SHAPES: usize = 1 << 21;
+
+/// Which mesh in which pose: the mesh's index, the bits of the weights, the skin.
+type PoseKey = (usize, Vec<u32>, Option<usize>);
+
+/// A primitive's mesh and material; `None` if there is nothing to draw.
+type Part = Option<(Asked, Option<MaterialRef>)>;
+
 /// Places what the nodes of one scene carry.
 pub(super) struct Walk<'w, 'a> {
     document: &'w Document<'a>,
@@ -32,6 +41,7 @@ pub(super) struct Walk<'w, 'a> {
     looks: &'w Looks,
     meshes: Meshes<'a>,
     skins: HashMap<usize, Skin>,
+    parts: HashMap<PoseKey, Arc<[Part]>>,
     pending: Vec<Pending>,
 }
 
@@ -43,14 +53,15 @@ impl<'w, 'a> Walk<'w, 'a> {
         nodes: &'w Hierarchy<'a>,
         looks: &'w Looks,
     ) -> Self {
-        let (meshes, skins, pending) = (Meshes::default(), HashMap::new(), Vec::new());
-        Self { document, buffers, nodes, looks, meshes, skins, pending }
+        let (meshes, skins, parts) = (Meshes::default(), HashMap::new(), HashMap::new());
+        Self { document, buffers, nodes, looks, meshes, skins, parts, pending: Vec::new() }
     }
 
     /// Visits the nodes `roots` and all below them in document order, then makes their meshes.
     pub(super) fn run(mut self, roots: &[usize], desc: &mut SceneDesc) -> Checked<()> {
         let mut seen = vec![false; self.document.root.list("nodes")?.len()];
         let mut stack: Vec<usize> = roots.iter().rev().copied().collect();
+        self.check_count()?;
         while let Some(index) = stack.pop() {
             // A scene may name a node and its child.
             let new = seen.get_mut(index).is_some_and(|seen| !std::mem::replace(seen, true));
@@ -59,6 +70,9 @@ impl<'w, 'a> Walk<'w, 'a> {
                 continue;
             }
             self.document.keep(self.place(node, index, desc));
+            if self.document.is_exhausted() {
+                return Ok(());
+            }
             stack.extend(self.nodes.children_of(index).iter().rev());
         }
         self.finish(desc);
@@ -124,6 +138,39 @@ impl<'w, 'a> Walk<'w, 'a> {
         Ok(Pose { weights: weights.into_iter().map(|w| w as f32).collect(), skin })
     }
 
+    /// Complains about nodes that make too many shapes together, before the first is made.
+    fn check_count(&self) -> Checked<()> {
+        let meshes = self.document.root.list("meshes")?;
+        let sizes: Vec<usize> =
+            meshes.iter().map(|m| m.list("primitives").map(|p| p.len())).collect::<Checked<_>>()?;
+        let mut shapes = 0_usize;
+        for node in self.document.root.list("nodes")? {
+            if let Some(mesh) = node.get("mesh")? {
+                shapes = shapes.saturating_add(sizes.get(mesh.index()?).copied().unwrap_or(0));
+            }
+        }
+        self.document.at_most(&self.document.root, shapes, MOST_SHAPES, "shapes (nodes times primitives)")
+    }
+
+    /// What the primitives of a mesh are in a pose; asked for once, as many nodes may show it.
+    fn parts(&mut self, mesh: &Element<'a>, key: PoseKey, pose: &Pose) -> Checked<Arc<[Part]>> {
+        if let Some(known) = self.parts.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let mut parts = Vec::new();
+        for primitive in mesh.required("primitives")?.items()? {
+            let look = self.looks.of(self.document, &primitive);
+            let asked = look.and_then(|look| {
+                let asked = self.meshes.ask(self.document, &primitive, look.sets, pose)?;
+                Ok(asked.map(|mesh| (mesh, look.material)))
+            });
+            parts.push(self.document.keep(asked).flatten());
+        }
+        let parts: Arc<[Part]> = parts.into();
+        self.parts.insert(key, Arc::clone(&parts));
+        Ok(parts)
+    }
+
     /// One shape per primitive and placement.
     fn shapes(
         &mut self,
@@ -133,19 +180,16 @@ impl<'w, 'a> Walk<'w, 'a> {
         worlds: &[DAffine3],
     ) -> Checked<()> {
         let name = if node.name().is_empty() { mesh.name() } else { node.name() };
-        let primitives: Vec<Element<'a>> = mesh.required("primitives")?.items()?.collect();
-        let asked: Vec<_> = primitives
-            .iter()
-            .map(|primitive| {
-                let look = self.looks.of(self.document, primitive)?;
-                let asked = self.meshes.ask(self.document, primitive, look.sets, pose)?;
-                Ok(asked.map(|mesh| (mesh, look.material)))
-            })
-            .map(|asked| self.document.keep(asked).flatten())
-            .collect();
+        let weights = pose.weights.iter().map(|w| w.to_bits()).collect();
+        let parts = self.parts(mesh, (node.required("mesh")?.index()?, weights, pose.skin), pose)?;
+        let count = parts.len().saturating_mul(worlds.len());
+        let all = count.saturating_add(self.pending.len());
+        self.document.at_most(node, all, MOST_SHAPES, "shapes (places times primitives)")?;
+        // A mesh that many nodes show may have a name as long as the file.
+        self.document.spend(node, count, name.len().saturating_sub(64))?;
         for (place, world) in worlds.iter().enumerate() {
-            for (number, (primitive, asked)) in (1..).zip(primitives.iter().zip(&asked)) {
-                let Some((mesh, material)) = *asked else { continue };
+            for (number, part) in (1..).zip(&*parts) {
+                let Some((mesh, material)) = *part else { continue };
                 if mesh.skin.is_some() && place > 0 {
                     // A skin alone says where its vertices are: all instances would be in one place.
                     self.document.warn(node, "instances of a mesh with a skin are drawn once");
@@ -155,9 +199,7 @@ impl<'w, 'a> Walk<'w, 'a> {
                     self.document.warn(node, "a node is scaled to zero in some direction; it is not drawn");
                     continue;
                 }
-                let size = size_of::<Pending>() + size_of::<ShapeDesc>() + name.len();
-                self.document.spend(primitive, 1, size)?;
-                let several = primitives.len() > 1 && !name.is_empty();
+                let several = parts.len() > 1 && !name.is_empty();
                 let name = if several { format!("{name}#{number}") } else { name.to_owned() };
                 self.pending.push(Pending { mesh, name, world: *world, material });
             }

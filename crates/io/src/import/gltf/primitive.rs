@@ -1,7 +1,10 @@
 //! One primitive to one triangle mesh: vertices, triangles, morph targets (in `morph.rs`) and skin (in `skin.rs`).
 use std::collections::HashMap;
 
-use durer_core::math::{Normal3, Point2, Point3};
+use durer_core::{
+    glam::DVec3,
+    math::{Normal3, Point2, Point3},
+};
 use durer_scene::{Mesh, counted};
 
 use super::{
@@ -73,7 +76,19 @@ pub(super) fn build<'a>(
         skin.bend(&mut mesh, &columns.influences(&attributes, skin)?);
     }
     mesh.validate().map_err(|e| primitive.fault(e.to_string()))?;
+    if has_no_area(&mesh) {
+        document.warn(primitive, "no triangle of this primitive has an area: nothing of it will be seen");
+    }
     Ok(Some(mesh))
+}
+
+/// True if nothing of a mesh can be hit.
+pub(super) fn has_no_area(mesh: &Mesh) -> bool {
+    mesh.indices.iter().all(|triangle| {
+        let [a, b, c] =
+            triangle.map(|i| mesh.positions.get(i as usize).map_or(DVec3::ZERO, |p| Point3::to_f64(*p)));
+        (b - a).cross(c - a) == DVec3::ZERO
+    })
 }
 
 /// The attributes of one primitive, all of the same length.

@@ -24,6 +24,9 @@ use crate::import::{
     text::{Complaint, Part, tell},
 };
 
+/// Most names of material files that are looked for, those of all lines together.
+const MOST_NAMES: usize = 64;
+
 /// Materials by name.
 #[derive(Debug, Default)]
 pub(super) struct Library {
@@ -52,10 +55,15 @@ pub(super) fn load(
 ) -> Library {
     let (files, used) = wanted(text, model);
     let mut said = HashSet::new();
+    let mut left = MOST_NAMES;
     let (mut all, mut seen): (Vec<(Material, String)>, HashSet<String>) = (Vec::new(), HashSet::new());
     let mut libraries: Vec<Found> = Vec::new();
     for (line, at) in &files {
-        for found in find(line, at, imported, complaints) {
+        if left == 0 {
+            break;
+        }
+        left = left.saturating_sub(1);
+        for found in find((line, at), &mut left, imported, complaints) {
             if !said.insert(found.path.clone()) {
                 continue;
             }
@@ -68,6 +76,11 @@ pub(super) fn load(
             all.extend(fresh.map(|m| (Material { library, ..m }, folder.to_owned())));
             libraries.push(found);
         }
+    }
+    if left == 0 {
+        let message =
+            format!("so many material files are named that only the first {MOST_NAMES} are looked for");
+        complaints.push(Complaint::whole(message).warning());
     }
     let names: HashSet<&str> = used.iter().map(|(name, _)| name.as_str()).collect();
     all.retain(|(m, _)| names.contains(m.name.as_str()));
@@ -138,14 +151,23 @@ fn wanted(text: Part<'_>, model: &Model) -> (Vec<(String, Range<usize>)>, Vec<(S
     (files, used)
 }
 
-/// The files that the rest of a `mtllib` line names.
-fn find(line: &str, at: &Range<usize>, imported: &Imported, complaints: &mut Vec<Complaint>) -> Vec<Found> {
+/// The files that the rest of a `mtllib` line names; `left` more names may be looked for.
+fn find(
+    (line, at): (&str, &Range<usize>),
+    left: &mut usize,
+    imported: &Imported,
+    complaints: &mut Vec<Complaint>,
+) -> Vec<Found> {
     let assets = &imported.assets;
     if let Ok(bytes) = assets.bytes(line) {
         return vec![Found { path: line.to_owned(), bytes }];
     }
     let mut found = Vec::new();
     for name in names(line) {
+        if *left == 0 {
+            break;
+        }
+        *left -= 1;
         let own = format!("{}.mtl", imported.desc.name);
         let tried = [name.as_str(), last_name(&name), &own];
         let mut why: Option<AssetError> = None;

@@ -28,7 +28,7 @@ use self::{
 };
 use super::{
     Imported,
-    text::{Complaint, Part, grouped, is_continued, tell},
+    text::{Complaint, Part, grouped, is_continued, tell, with_line_feeds},
 };
 use crate::assets::read_file;
 
@@ -36,7 +36,7 @@ use crate::assets::read_file;
 pub(super) fn read(path: &Path, imported: &mut Imported) {
     let file = path.display().to_string();
     let bytes = match read_file(path, &file, imported.assets.limits()) {
-        Ok(bytes) => bytes,
+        Ok(bytes) => with_line_feeds(bytes),
         Err(error) => {
             imported.diagnostics.error(Location::None, error.to_string());
             return;

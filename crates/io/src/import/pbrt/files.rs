@@ -203,11 +203,15 @@ fn reason(e: &std::io::Error) -> String {
 /// What to tell; messages call the file `shown`.
 fn read_bytes(path: &Path, shown: &str, limits: Limits) -> Result<Vec<u8>, String> {
     let fail = |e: std::io::Error| format!("{shown}: {}", reason(&e));
-    let file = File::open(path).map_err(fail)?;
-    let about = file.metadata().map_err(fail)?;
+    // Before it is opened: that waits for ever on a pipe to which nobody writes.
+    let about = path.metadata().map_err(fail)?;
     if about.is_dir() {
         return Err(format!("{shown}: this is a folder"));
     }
+    if !about.is_file() {
+        return Err(format!("{shown}: not a file"));
+    }
+    let file = File::open(path).map_err(fail)?;
     let most = limits.file_bytes;
     let mut bytes = Vec::with_capacity(about.len().min(most) as usize + 1);
     file.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;

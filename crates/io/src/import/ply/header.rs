@@ -125,6 +125,21 @@ pub(super) struct Header {
     pub(super) warnings: Vec<Complaint>,
 }
 
+/// A file whose header has CR for line ends, as old Macintosh programs wrote them, with LF instead; `None` for all others.
+/// The body is changed only if it is text.
+pub(super) fn with_line_feeds(file: &[u8]) -> Option<Vec<u8>> {
+    const END: &[u8] = b"\rend_header\r";
+    if !file.starts_with(b"ply\r") || file.get(4) == Some(&b'\n') {
+        return None;
+    }
+    let end = memchr::memmem::find(file, END)? + END.len();
+    let is_text = memchr::memmem::find(file.get(..end)?, b"format ascii").is_some();
+    let mut file = file.to_vec();
+    let changed = if is_text { file.as_mut_slice() } else { file.get_mut(..end)? };
+    changed.iter_mut().filter(|b| **b == b'\r').for_each(|b| *b = b'\n');
+    Some(file)
+}
+
 const WORDS: [&str; 6] = ["format", "element", "property", "comment", "obj_info", "end_header"];
 
 /// Reads the header of a file.

@@ -41,7 +41,10 @@ struct Read {
 pub(super) fn read(path: &Path, imported: &mut Imported) {
     let file = path.display().to_string();
     let bytes = match read_file(path, &file, imported.assets.limits()) {
-        Ok(bytes) => bytes,
+        Ok(bytes) => match header::with_line_feeds(&bytes) {
+            Some(bytes) => bytes,
+            None => bytes,
+        },
         Err(error) => {
             imported.diagnostics.error(durer_scene::Location::None, error.to_string());
             return;
@@ -73,6 +76,8 @@ fn no_faces(mesh: &Mesh) -> Complaint {
 /// The triangles in `bytes`, which messages call `name`.
 pub(crate) fn mesh(bytes: &[u8], name: &str) -> Result<Mesh, AssetError> {
     let fail = |reason| AssetError::Format { path: name.to_owned(), reason };
+    let converted = header::with_line_feeds(bytes);
+    let bytes = converted.as_deref().unwrap_or(bytes);
     let read = parse(bytes).map_err(|c| fail(c.line(bytes)))?;
     if read.mesh.indices.is_empty() {
         return Err(fail(no_faces(&read.mesh).message));

@@ -18,7 +18,7 @@ use durer_scene::{Location, Mesh, ShapeDesc, ShapeSource};
 
 use super::{
     Imported,
-    text::{Complaint, tell},
+    text::{Complaint, tell, with_line_feeds},
 };
 use crate::assets::read_file;
 
@@ -33,7 +33,7 @@ struct Solid {
 pub(super) fn read(path: &Path, imported: &mut Imported) {
     let file = path.display().to_string();
     let bytes = match read_file(path, &file, imported.assets.limits()) {
-        Ok(bytes) => bytes,
+        Ok(bytes) => plain(bytes),
         Err(error) => {
             imported.diagnostics.error(Location::None, error.to_string());
             return;
@@ -53,12 +53,27 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
     tell(complaints, &file, &bytes, imported);
 }
 
+/// A text with line ends as ours, without byte order mark; bytes as they are.
+fn plain(bytes: Vec<u8>) -> Vec<u8> {
+    if binary::fits(&bytes) {
+        return bytes;
+    }
+    let mut bytes = bytes;
+    if let Some(mark) = bytes.get_mut(..3).filter(|mark| **mark == *b"\xef\xbb\xbf") {
+        mark.fill(b' ');
+    }
+    if text::looks_like(&bytes) { with_line_feeds(bytes) } else { bytes }
+}
+
 fn parse(bytes: &[u8], warnings: &mut Vec<Complaint>) -> Result<Vec<Solid>, Complaint> {
     if binary::fits(bytes) {
         return binary::read(bytes, warnings);
     }
     if text::looks_like(bytes) {
         return text::read(bytes, warnings);
+    }
+    if matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]) {
+        return Err(Complaint::whole("this is UTF-16; save it as UTF-8"));
     }
     // A binary file of the wrong length.
     binary::read(bytes, warnings)

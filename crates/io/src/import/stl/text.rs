@@ -67,21 +67,26 @@ struct Reader<'t> {
     end: usize,
     solids: Vec<Solid>,
     last: bool,
+    /// The text has no line ends.
+    one_line: bool,
 }
 
 impl<'t> Reader<'t> {
     fn new(piece: Part<'t>, last: bool) -> Self {
-        Self { words: piece.words(), end: piece.range().end, solids: vec![Solid::default()], last }
+        let one_line = memchr::memchr(b'\n', piece.bytes.trim_ascii()).is_none();
+        Self { words: piece.words(), end: piece.range().end, solids: vec![Solid::default()], last, one_line }
     }
 
     fn read(mut self) -> Result<Piece, Complaint> {
         while let Some(word) = self.words.next() {
             match word.bytes.to_ascii_lowercase().as_slice() {
                 b"solid" => {
-                    let name = self.rest_of_line();
+                    let name = self.rest_of_line(|word, next| {
+                        word == b"endsolid" || (word == b"facet" && next == b"normal")
+                    });
                     self.solids.push(Solid { name, triangles: Vec::new() });
                 }
-                b"endsolid" => drop(self.rest_of_line()),
+                b"endsolid" => drop(self.rest_of_line(|word, _| word == b"solid")),
                 b"facet" => self.facet()?,
                 _ => return Err(unexpected(word, "\"facet\" or \"endsolid\"")),
             }
@@ -89,10 +94,23 @@ impl<'t> Reader<'t> {
         Ok(Piece { solids: self.solids })
     }
 
-    fn rest_of_line(&mut self) -> String {
+    /// A name: all up to the line's end. Where the rest of the file stands in the same line, it ends before the first
+    /// word that `ends` it together with the next.
+    fn rest_of_line(&mut self, ends: impl Fn(&[u8], &[u8]) -> bool) -> String {
         let rest = self.words.rest();
         let line = rest.lines().next().unwrap_or(rest);
-        let (line, behind) = rest.split(line.bytes.len());
+        let mut length = line.bytes.len();
+        if self.one_line {
+            let lower = |word: Option<Part<'_>>| word.map_or(Vec::new(), |w| w.bytes.to_ascii_lowercase());
+            let mut words = line.words();
+            while let Some(word) = words.next() {
+                if ends(&lower(Some(word)), &lower(words.clone().next())) {
+                    length = word.at - rest.at;
+                    break;
+                }
+            }
+        }
+        let (line, behind) = rest.split(length);
         self.words = behind.words();
         line.trim().text()
     }

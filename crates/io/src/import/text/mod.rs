@@ -8,3 +8,11 @@ mod number;
 pub(crate) use complaint::{Complaint, Tally, grouped, tell};
 pub(crate) use lines::{Part, Words, is_continued};
 pub(crate) use number::{float, integer, leading_float, leading_integer};
+
+/// The text with LF for CR if lines end in CR alone, as on old Macintosh computers; places stay the same.
+pub(crate) fn with_line_feeds(mut text: Vec<u8>) -> Vec<u8> {
+    if memchr::memchr(b'\n', &text).is_none() {
+        text.iter_mut().filter(|b| **b == b'\r').for_each(|b| *b = b'\n');
+    }
+    text
+}
