@@ -230,3 +230,17 @@ fn other_encodings_are_named() {
     let scene = import(&[("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\no K\xf6rper\nf 1 2 3\n")]);
     assert_eq!(scene.desc.shapes[0].name, "Körper");
 }
+
+#[test]
+fn line_ends_of_old_macintosh_computers_are_read() {
+    let scene = obj(&format!("# old\n{SQUARE}f 1 2 3\nf 1 3 4\n").replace('\n', "\r"));
+    assert_silent(&scene);
+    assert_eq!(triangles(&scene), 2);
+}
+
+#[test]
+fn indices_of_more_digits_than_a_number_has_are_out_of_range() {
+    let scene = obj(&format!("{SQUARE}f 1 2 99999999999999999999999\n"));
+    let errors = said(&scene, Severity::Error);
+    assert_eq!(errors, ["5:7: there is no vertex 999999999999999999: the file has 4"]);
+}
