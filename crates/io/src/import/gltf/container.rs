@@ -36,6 +36,9 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     if version != 2 {
         return Err(format!("GLB container version {version}; durer reads version 2"));
     }
+    if length < 12 {
+        return Err(format!("GLB header: {length} bytes announced, but the header alone has 12"));
+    }
     let whole = bytes
         .get(..length as usize)
         .ok_or_else(|| format!("GLB header: {length} bytes announced, but the file has {}", bytes.len()))?;
