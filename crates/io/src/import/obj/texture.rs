@@ -17,6 +17,9 @@ use crate::{
     import::{Imported, text::Complaint},
 };
 
+/// Images that cannot be had, of which each is told.
+const MOST_FAILED: usize = 16;
+
 /// What a texture is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
@@ -116,7 +119,10 @@ impl Textures {
             self.images.into_values().filter_map(Result::err).map(|e| e.to_string()).collect();
         failed.sort_unstable();
         failed.dedup();
-        let failed = failed.into_iter().map(|e| format!("{e}; drawn without this image"));
+        let more = failed.len().saturating_sub(MOST_FAILED);
+        let more = (more > 0).then(|| format!("{more} more images cannot be had; drawn without them"));
+        failed.truncate(MOST_FAILED);
+        let failed = failed.into_iter().map(|e| format!("{e}; drawn without this image")).chain(more);
         let heights = self.heights.into_keys().map(|file| {
             format!("{file} holds heights; only normal maps are supported: the surface is drawn smooth")
         });
@@ -136,6 +142,10 @@ fn find(assets: &FileAssets, folder: &str, file: &str) -> Result<String, AssetEr
                 why.get_or_insert(error);
             }
         }
+    }
+    let tried = [within(file), within(last_name(file)), last_name(file).to_owned()];
+    if let Some(path) = tried.iter().find_map(|path| assets.in_other_case(path)) {
+        return Ok(path);
     }
     Err(why.unwrap_or_else(|| AssetError::Missing { path: file.to_owned() }))
 }
