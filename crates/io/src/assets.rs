@@ -23,7 +23,11 @@ pub struct FileAssets {
     users: BTreeMap<String, String>,
     images: Cache<Image>,
     meshes: Cache<Mesh>,
+    listings: Cache<HashMap<String, String>>,
 }
+
+/// Names in a folder that are looked through for one that differs in letter case alone.
+const MOST_NAMES: usize = 1 << 16;
 
 /// What was decoded, by path.
 type Cache<T> = Mutex<HashMap<String, Arc<T>>>;
@@ -39,6 +43,7 @@ impl FileAssets {
             users: BTreeMap::new(),
             images: Cache::default(),
             meshes: Cache::default(),
+            listings: Cache::default(),
         }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
@@ -63,6 +68,24 @@ impl FileAssets {
         let file = canonical(&self.folder.join(relative))?;
         // Only the canonical paths tell whether a symbolic link leads out.
         if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
+    }
+    /// The path of the file in the folder of `path` whose name is that of `path` but for the letter case, if there is
+    /// one: models are made on systems that do not tell them apart.
+    pub(crate) fn in_other_case(&self, path: &str) -> Option<String> {
+        let path = path.replace('\\', "/");
+        let (folder, name) = path.rsplit_once('/').map_or((".", path.as_str()), |(f, n)| (f, n));
+        let names = cached(&self.listings, folder, || {
+            let read = self.resolve(folder)?.read_dir().map_err(|e| io_error(folder, &e))?;
+            let names =
+                read.take(MOST_NAMES).flatten().filter_map(|entry| entry.file_name().into_string().ok());
+            let mut names: Vec<String> = names.collect();
+            // Of several, always the same one.
+            names.sort_unstable_by(|a, b| b.cmp(a));
+            Ok(names.into_iter().map(|name| (name.to_lowercase(), name)).collect())
+        });
+        let names = names.ok()?;
+        let found = names.get(&name.to_lowercase())?;
+        Some(if folder == "." { found.clone() } else { format!("{folder}/{found}") })
     }
 }
 

@@ -271,3 +271,23 @@ fn faults_of_looks_point_at_their_cause() {
         assert!(found.0 == pointer && found.1.contains(text), "{found:?}");
     }
 }
+
+/// The picture has the proportions of the first camera, which the program's size options keep.
+#[test]
+fn the_first_camera_says_what_proportions_the_picture_has() {
+    let scene = |ratio: Value| {
+        let camera = |ratio| json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 1, "aspectRatio": ratio}});
+        let document = json!({
+            "nodes": [{"camera": 0}, {"camera": 1}],
+            "scenes": [{"nodes": [0, 1]}],
+            "cameras": [camera(ratio), camera(json!(3))],
+        });
+        let film = import_well(document, &[0; 4]).desc.film;
+        (film.width, film.height)
+    };
+    assert_eq!(scene(json!(1.6)), (Some(1280), Some(800)));
+    assert_eq!(scene(json!(0.5)), (Some(1280), Some(2560)));
+    for senseless in [0.0, -1.0, 1e9] {
+        assert_eq!(scene(json!(senseless)), (None, None));
+    }
+}

@@ -361,3 +361,13 @@ fn arrays_of_zeros_that_need_no_bytes_are_limited_and_told_once() {
     assert_eq!(bomb.diagnostics.error_count(), 1, "{:?}", bomb.diagnostics);
     assert!(first(&bomb, Severity::Error).1.contains("unpacks to far more than its buffers hold"));
 }
+
+#[test]
+fn primitives_without_area_are_told() {
+    let mut document = document(json!({"attributes": {"POSITION": 0}}));
+    document["accessors"] = json!([{"componentType": 5126, "type": "VEC3", "count": 6}]);
+    let flat = import_well(document, &zigzag());
+    let (pointer, message) = first(&flat, Severity::Warning);
+    assert_eq!(pointer, "/meshes/0/primitives/0");
+    assert!(message.starts_with("no triangle of this primitive has an area"), "{message}");
+}

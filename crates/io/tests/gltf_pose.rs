@@ -238,3 +238,30 @@ fn real_files_stand_as_their_bones_and_weights_say() {
         assert!(found.iter().zip([low, high, mean]).all(near), "{file}: {found:?}");
     }
 }
+
+/// A scale of zero in z leaves a square that lies in that plane, or the shadow of one that does not.
+#[test]
+fn nodes_flattened_in_one_direction_are_drawn_and_those_in_two_are_not() {
+    let scene = |scale: [f64; 3]| {
+        let document = json!({
+            "nodes": [{"mesh": 0, "scale": scale, "translation": [5, 0, 0]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        });
+        import_well(document, &floats(&[1., 0., 3., 2., 0., 4., 0., 2., 5.]))
+    };
+    let flat = scene([2.0, 1.0, 0.0]);
+    assert!(flat.diagnostics.is_empty(), "{:?}", flat.diagnostics);
+    let ShapeSource::Mesh(id) = flat.desc.shapes[0].source else { panic!("no mesh") };
+    let mesh = &flat.desc.meshes[id.index()];
+    assert_eq!(mesh.positions, [[2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point3::from));
+    assert!(mesh.normals.is_empty());
+    let place = flat.desc.shapes[0].world_from_object.at(0.0);
+    assert_eq!((place.translation, place.matrix3.determinant()), (DVec3::new(5.0, 0.0, 0.0), 1.0));
+    for scale in [[1.0, 0.0, 0.0], [0.0; 3]] {
+        let nothing = scene(scale);
+        assert!(nothing.desc.shapes.is_empty());
+        assert!(first(&nothing, Severity::Warning).1.ends_with("nothing of it is left; it is not drawn"));
+    }
+}

@@ -187,12 +187,12 @@ fn a_file_of_the_models_own_name_stands_in_for_a_missing_one() {
 
 #[test]
 fn wrong_lines_are_told_in_the_mtl_file() {
-    let scene = with("Kd 1 x 0\nKs\nNs nan\nmap_kd dot.png\nrefl a.png\nrefl a.png\nd -halo 0.5\n");
+    let scene = with("Kd 1 x 0\nKs\nNs nan\nmpa_Kd dot.png\nrefl a.png\nrefl a.png\nd -halo 0.5\n");
     let expected = [
         "2:6: \"x\" is not a number",
         "3:1: a colour is missing",
         "4:4: \"nan\" is not a number",
-        "5:1: unknown word \"map_kd\"; its lines are skipped; did you mean \"map_Kd\"?",
+        "5:1: unknown word \"mpa_Kd\"; its lines are skipped; did you mean \"map_Kd\"?",
         "6:1: refl is not supported yet; drawn without it",
         "8:3: -halo is not supported: the surface is as opaque everywhere",
     ];
@@ -212,4 +212,53 @@ fn lines_that_name_thousands_of_material_files_are_cut_off() {
         let last = "so many material files are named that only the first 64 are looked for";
         assert!(warnings.last().is_some_and(|w| w.ends_with(last)), "{warnings:?}");
     }
+}
+
+#[test]
+fn words_of_mtl_may_be_in_any_letter_case() {
+    let scene = with("KD 0.5 0.25 0\nNS 100\nILLUM 2\nMAP_KE dot.png\n");
+    assert_silent(&scene);
+    near(&floats(material(&scene, 0), "basecolor"), &[0.5, 0.25, 0.0]);
+    assert_eq!(scene.desc.textures.len(), 1);
+}
+
+#[test]
+fn files_are_found_whose_names_differ_in_letter_case() {
+    let obj = format!("mtllib Sub/A.MTL\n{TRIANGLE}usemtl m\nf 1/1 2/2 3/3\n");
+    let files: [(&str, &[u8]); 3] = [
+        ("a.obj", obj.as_bytes()),
+        ("Sub/a.mtl", b"newmtl m\nmap_Kd textures\\DOT.PNG\n"),
+        ("Sub/textures/Dot.png", &png([200; 3])),
+    ];
+    let scene = import(&files);
+    assert_eq!(said(&scene, Severity::Warning), ["1:8: Sub/A.MTL is not there; Sub/a.mtl is read instead"]);
+    assert_eq!(word(&scene_texture(&scene), "filename"), Some("Sub/textures/Dot.png"));
+}
+
+fn scene_texture(scene: &Imported) -> NamedNode {
+    let texture = scene.desc.textures.first().expect("a texture");
+    NamedNode { name: texture.name.clone(), node: texture.node.clone() }
+}
+
+#[test]
+fn what_is_invisible_is_told_but_glass_and_cut_outs_are_not() {
+    let told = said(&with("Kd 1 0 0\nd 0\n"), Severity::Warning);
+    assert_eq!(told.len(), 1);
+    assert!(
+        told[0].ends_with("material m is fully transparent (d 0): nothing of it will be seen"),
+        "{told:?}"
+    );
+    for mtl in ["d 0\nNi 1.5\nillum 7\n", "d 0\nmap_d dot.png\n", "d 0.01\n", "Tr 1\n"] {
+        assert_silent(&with(mtl));
+    }
+}
+
+#[test]
+fn many_missing_images_are_told_in_a_few_lines() {
+    let names = (0..500).map(|i| format!("newmtl m{i}\nmap_Kd t{i}.png\n")).collect::<String>();
+    let faces = (0..500).map(|i| format!("usemtl m{i}\nf 1/1 2/2 3/3\n")).collect::<String>();
+    let obj = format!("mtllib a.mtl\n{TRIANGLE}{faces}");
+    let told = said(&import(&[("a.obj", obj.as_bytes()), ("a.mtl", names.as_bytes())]), Severity::Warning);
+    assert_eq!(told.len(), 17);
+    assert!(told[16].ends_with("484 more images cannot be had; drawn without them"), "{told:?}");
 }

@@ -236,3 +236,17 @@ fn numbers_that_old_programs_could_not_write_are_none() {
     let scene = import(&[("a.obj", b"v 0 0 1.#IND # a comment\nv 1 0 0#two\n")]);
     assert_eq!(said(&scene, Severity::Error), ["1:7: \"1.#IND\" is not a number"]);
 }
+
+#[test]
+fn line_ends_of_old_macintosh_computers_are_read() {
+    let scene = obj(&format!("# old\n{SQUARE}f 1 2 3\nf 1 3 4\n").replace('\n', "\r"));
+    assert_silent(&scene);
+    assert_eq!(triangles(&scene), 2);
+}
+
+#[test]
+fn indices_of_more_digits_than_a_number_has_are_out_of_range() {
+    let scene = obj(&format!("{SQUARE}f 1 2 99999999999999999999999\n"));
+    let errors = said(&scene, Severity::Error);
+    assert_eq!(errors, ["5:7: there is no vertex 999999999999999999: the file has 4"]);
+}

@@ -194,3 +194,25 @@ fn assets_hold_the_same_mesh_packed_or_not_and_read_it_once() {
     assert!(error.starts_with("bad.ply: line 2: expected \"ascii\""), "{error}");
     assert!(matches!(assets.mesh("gone.ply"), Err(AssetError::Missing { .. })));
 }
+
+#[test]
+fn line_ends_of_old_macintosh_computers_are_read() {
+    let body = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    let ascii: Vec<u8> = text(body).iter().map(|&b| if b == b'\n' { b'\r' } else { b }).collect();
+    let mut binary = format!("ply\nformat binary_little_endian 1.0\n{HEAD}").replace('\n', "\r").into_bytes();
+    // 13 is a carriage return, which the body of a binary file may hold.
+    let corners =
+        [[13.0, 0.0, 0.0], [1.0, 0.0, f32::from_bits(0x0d0d_0d0d)], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    binary.extend(corners.as_flattened().iter().flat_map(|v| v.to_le_bytes()));
+    binary.push(4);
+    binary.extend((0..4_i32).flat_map(i32::to_le_bytes));
+    for bytes in [&ascii, &binary] {
+        let scene = ply(bytes);
+        assert_silent(&scene);
+        assert_eq!(triangles(&scene), 2);
+    }
+    assert_eq!(mesh(&ply(&binary), 0).positions, corners.map(Point3::from));
+    let root = folder(&[("mac.ply", &ascii)]);
+    let assets = FileAssets::new(root.path().to_owned(), Limits::default());
+    assert_eq!(assets.mesh("mac.ply").expect("readable").indices.len(), 2);
+}

@@ -108,3 +108,23 @@ fn large_texts_are_read_in_pieces_without_seams() {
     let first = |t: &[u32; 3]| mesh.positions[t[0] as usize].x;
     assert!(mesh.indices.iter().enumerate().all(|(i, t)| first(t) == 1.0 + i as f32));
 }
+
+#[test]
+fn texts_may_have_any_line_ends_or_none_and_a_byte_order_mark() {
+    let text = format!(
+        "solid big part\n{}{}endsolid big part\nsolid\n{}endsolid\n",
+        facet(1.0),
+        facet(2.0),
+        facet(3.0)
+    );
+    let marked = format!("\u{feff}{text}");
+    for text in [text.replace('\n', "\r"), text.replace('\n', " "), text.replace('\n', "\r\n"), marked] {
+        let scene = stl(text.as_bytes());
+        assert_silent(&scene);
+        let names: Vec<_> = scene.desc.shapes.iter().map(|s| s.name.as_str()).collect();
+        assert_eq!(names, ["big part", "part"], "{text:?}");
+        assert_eq!((mesh(&scene, 0).indices.len(), triangles(&scene)), (2, 3));
+    }
+    let wide: Vec<u8> = "\u{feff}solid a\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert!(said(&stl(&wide), Severity::Error)[0].ends_with("this is UTF-16; save it as UTF-8"));
+}

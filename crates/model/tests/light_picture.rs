@@ -327,3 +327,20 @@ fn pictures_that_are_no_light_are_refused_with_a_reason() {
     let placeholder = try_light(None, Params::new(), Missing::Warn).expect("a placeholder");
     assert_eq!(escaped(&*placeholder, DVec3::Z), [1.0, 0.0, 1.0]);
 }
+
+#[test]
+fn a_picture_that_gives_no_light_is_told() {
+    let told = |value: f64| {
+        let mut diagnostics = Diagnostics::default();
+        let node = Node::new("infinite", Params::new().string("filename", "sky.exr"));
+        let entry = find(LIGHTS, "light", &node, &mut diagnostics).expect("a registered light");
+        let assets = Only(Some(Arc::new(picture(4, 2, |_, _| [-1.0, value, -2.0]))));
+        let mut args = Args::check(&node, entry.schema, &[], &mut diagnostics);
+        args = args.with_assets(&assets, Missing::Refuse);
+        assert!((entry.build)(&mut args).is_some());
+        diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(told(0.5), Vec::<String>::new());
+    let black = told(-0.5);
+    assert!(black.len() == 1 && black[0].starts_with("the picture is black everywhere"), "{black:?}");
+}

@@ -15,7 +15,7 @@ use super::polygon_grid::Grid;
 /// Tests of a corner against an ear that a piece of a file may cost at least; see [`Triangulator::new`].
 const FREE_TESTS: u64 = 1 << 27;
 /// Tests for each corner.
-const TESTS: u64 = 512;
+const TESTS: u64 = 2048;
 
 /// Splits polygons; keeps its memory between them.
 #[derive(Debug)]

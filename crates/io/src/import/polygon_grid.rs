@@ -14,6 +14,8 @@ pub(super) struct Grid {
     /// Where the corners of each cell begin in `corners`, and how many are left of them.
     cells: Vec<(usize, usize)>,
     corners: Vec<usize>,
+    /// Which corners are held.
+    holds: Vec<bool>,
 }
 
 impl Grid {
@@ -38,6 +40,9 @@ impl Grid {
             *cell = (start, 0);
             start += count;
         }
+        self.holds.clear();
+        self.holds.resize(points.len(), false);
+        which.iter().for_each(|&i| self.holds.get_mut(i).into_iter().for_each(|h| *h = true));
         self.corners.clear();
         self.corners.resize(which.len(), 0);
         for (&corner, place) in which.iter().zip(places) {
@@ -57,6 +62,10 @@ impl Grid {
 
     /// Takes `corner` at `point` out, if it is in. Returns how many were looked at.
     pub(super) fn forget(&mut self, corner: usize, point: DVec2) -> u64 {
+        let held = self.holds.get_mut(corner).is_some_and(|held| std::mem::replace(held, false));
+        if !held {
+            return 0;
+        }
         let place = self.index(point);
         let Some(cell) = self.cells.get_mut(place) else {
             return 0;

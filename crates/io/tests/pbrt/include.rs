@@ -162,3 +162,22 @@ fn texts_may_be_empty_and_end_anywhere() {
     assert_eq!(complaints(&imported), Vec::<String>::new());
     assert_eq!(imported.desc.shapes.len(), 1);
 }
+
+/// Whether there is such a file or not is nobody's business.
+#[test]
+fn paths_that_climb_out_are_refused_before_they_are_looked_for() {
+    for path in ["../a.pbrt", "../no such file", "sub/../../no such file", "/no such file"] {
+        let (_folder, imported) =
+            open_files(&[("a.pbrt", format!("WorldBegin Include \"{path}\"").as_bytes())]);
+        let all = complaints(&imported);
+        assert!(all.len() == 1 && all[0].contains("leads out of the scene's folder"), "{path}: {all:?}");
+    }
+    let (_folder, imported) = open_files(&[
+        ("a.pbrt", b"WorldBegin Include \"sub/b.pbrt\""),
+        ("sub/b.pbrt", b"Include \"../c.pbrt\" Include \"x/../../c.pbrt\""),
+        ("sub/x/d.pbrt", b""),
+        ("c.pbrt", b"Shape \"c\""),
+    ]);
+    assert_eq!(complaints(&imported), Vec::<String>::new());
+    assert_eq!(imported.desc.shapes.len(), 2);
+}

@@ -143,3 +143,11 @@ fn keys_are_checked() {
     let found = complaints(&read(&format!("WorldBegin ActiveTransform EndTime TransformKeys {two}")));
     assert!(found[0].contains("needs ActiveTransform All"), "{found:?}");
 }
+
+#[test]
+fn a_factor_that_goes_through_zero_is_told_where_it_stands() {
+    let text = "WorldBegin\nTransformKeys \"float times\" [0 1]\n \"vector3 scale\" [1 1 1 -1 1 1]\nShape \"sphere\"";
+    let all = complaints(&read(text));
+    assert_eq!(all.len(), 1, "{all:?}");
+    assert!(all[0].starts_with("3:2 error: a factor changes its sign"), "{all:?}");
+}

@@ -3,8 +3,8 @@ use durer_core::{
     glam::DVec3,
     math::{Point2, Point3, Ray, Vector3},
 };
-use durer_model::shape::{Geometry, Patch, Shape};
-use durer_scene::{Data, Params, ValueType};
+use durer_model::shape::{Geometry, Patch, SHAPES, Shape};
+use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType};
 use durer_testkit::{bilinear::meetings, random::Random};
 
 use super::{build, points, ray, shape};
@@ -224,4 +224,22 @@ fn meshes_of_patches_are_checked() {
     assert!(build("bilinearmesh", short).is_err_and(|m| m.contains("texture coordinates")));
     let (ty, five) = points(&[[0.0; 3]; 5]);
     assert!(build("bilinearmesh", Params::new().with("P", ty, five)).is_err_and(|m| m.contains("needs")));
+}
+
+#[test]
+fn patches_without_area_are_told() {
+    let told = |corners: [[f32; 3]; 4]| {
+        let (kind, data) = points(&corners);
+        let node = Node::new("bilinearmesh", Params::new().with("P", kind, data));
+        let entry = SHAPES.iter().find(|e| e.answers_to("bilinearmesh")).expect("a registered word");
+        let mut diagnostics = Diagnostics::default();
+        assert!((entry.build)(&mut Args::check(&node, entry.schema, &[], &mut diagnostics)).is_some());
+        diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(told(SADDLE), Vec::<String>::new());
+    // Two corners in one place: a triangle.
+    assert_eq!(told([[0.0; 3], [0.0; 3], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]), Vec::<String>::new());
+    let said = ["no patch has an area: nothing of this shape will be seen"];
+    assert_eq!(told([[0.0; 3]; 4]), said);
+    assert_eq!(told([0.0, 1.0, 2.0, 3.0].map(|x| [x, 2.0 * x, 0.0])), said);
 }

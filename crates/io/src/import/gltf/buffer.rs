@@ -33,6 +33,9 @@ pub(super) enum Uri<'a> {
 /// Reads a URI: `data:` is decoded, percent signs are resolved.
 pub(super) fn parse_uri<'a>(element: &Element<'a>) -> Checked<Uri<'a>> {
     let uri = element.text()?;
+    if uri.is_empty() {
+        return Err(element.fault("an empty URI; expected a path beside the file or data:"));
+    }
     let Some(rest) = uri.strip_prefix("data:") else {
         if uri.split_once("://").is_some() {
             return Err(

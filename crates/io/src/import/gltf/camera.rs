@@ -3,7 +3,7 @@ use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
     math::Motion,
 };
-use durer_scene::{CameraDesc, Data, LightDesc, Node, Params, ValueType};
+use durer_scene::{CameraDesc, Data, FilmDesc, LightDesc, Node, Params, ValueType};
 
 use super::element::{Checked, Element};
 
@@ -36,8 +36,22 @@ fn perspective(element: &Element<'_>) -> Checked<Node> {
     if !(angle > 0.0 && angle < std::f64::consts::PI) {
         return Err(yfov.fault(format!("expected an angle between 0 and pi radians, found {angle}")));
     }
-    // aspectRatio is not followed: it would crop or stretch the film the user asks for.
+    // aspectRatio is for the size of the picture, see `film`: here it would crop or stretch what the user asks for.
     Ok(Node::new("perspective", Params::new().float("fov", angle.to_degrees() as f32).string("fovaxis", "y")))
+}
+
+/// The picture that a camera asks for by its aspectRatio; none if that is missing or senseless.
+pub(super) fn film(element: &Element<'_>) -> Checked<FilmDesc> {
+    const WIDTH: f64 = 1280.0;
+    let Some(perspective) = element.get("perspective")? else {
+        return Ok(FilmDesc::default());
+    };
+    let ratio = perspective.number_or("aspectRatio", 0.0)?;
+    if !(0.1..=10.0).contains(&ratio) {
+        return Ok(FilmDesc::default());
+    }
+    let (width, height) = (Some(WIDTH as u32), Some((WIDTH / ratio).round() as u32));
+    Ok(FilmDesc { width, height, ..FilmDesc::default() })
 }
 
 fn orthographic(element: &Element<'_>) -> Checked<Node> {

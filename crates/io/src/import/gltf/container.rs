@@ -34,6 +34,11 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     if version != 2 {
         return Err(format!("a GLB file of version {version}; durer reads version 2: export it as glTF 2.0"));
     }
+    if length < 12 {
+        return Err(export_again(&format!(
+            "its header announces {length} bytes, fewer than the header itself has"
+        )));
+    }
     let whole = bytes.get(..length as usize).ok_or_else(|| {
         cut_off(&format!("its header announces {}, but the file has {}", many(length as usize), bytes.len()))
     })?;

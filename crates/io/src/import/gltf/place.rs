@@ -1,8 +1,12 @@
 //! What the nodes of one scene carry, placed in the world: shapes, cameras and lights.
 use std::{collections::HashMap, sync::Arc};
 
-use durer_core::{Id, glam::DAffine3, math::Motion};
-use durer_scene::{MaterialRef, SceneDesc, ShapeDesc, ShapeSource};
+use durer_core::{
+    Id,
+    glam::DAffine3,
+    math::{Motion, Point3},
+};
+use durer_scene::{MaterialRef, Mesh, SceneDesc, ShapeDesc, ShapeSource};
 
 use super::{
     buffer::Buffers,
@@ -13,15 +17,18 @@ use super::{
     material::Looks,
     mesh::{Asked, Meshes, Pose},
     node::Hierarchy,
+    primitive::has_no_area,
     skin::Skin,
 };
 
 /// A shape whose mesh is not made yet.
-struct Pending {
+struct Pending<'a> {
     mesh: Asked,
     name: String,
     world: DAffine3,
     material: Option<MaterialRef>,
+    /// The node, if its scale is zero in some direction.
+    flat: Option<Box<Element<'a>>>,
 }
 
 /// Most shapes of one file: nodes times primitives, of which a short file can make any number.
@@ -42,7 +49,7 @@ pub(super) struct Walk<'w, 'a> {
     meshes: Meshes<'a>,
     skins: HashMap<usize, Skin>,
     parts: HashMap<PoseKey, Arc<[Part]>>,
-    pending: Vec<Pending>,
+    pending: Vec<Pending<'a>>,
 }
 
 impl<'w, 'a> Walk<'w, 'a> {
@@ -83,6 +90,9 @@ impl<'w, 'a> Walk<'w, 'a> {
         let world = self.nodes.world(index);
         if let Some(camera) = self.document.member(node, "camera", "cameras")? {
             let name = if node.name().is_empty() { camera.name() } else { node.name() };
+            if desc.cameras.is_empty() {
+                desc.film = camera::film(&camera)?;
+            }
             desc.cameras.push(camera::camera(&camera, name, &world)?);
         }
         if let Some(reference) = node.extension("KHR_lights_punctual")? {
@@ -195,13 +205,11 @@ impl<'w, 'a> Walk<'w, 'a> {
                     self.document.warn(node, "instances of a mesh with a skin are drawn once");
                     continue;
                 }
-                if mesh.skin.is_none() && world.matrix3.determinant() == 0.0 {
-                    self.document.warn(node, "a node is scaled to zero in some direction; it is not drawn");
-                    continue;
-                }
+                let is_flat = mesh.skin.is_none() && world.matrix3.determinant() == 0.0;
+                let flat = is_flat.then(|| Box::new(node.clone()));
                 let several = parts.len() > 1 && !name.is_empty();
                 let name = if several { format!("{name}#{number}") } else { name.to_owned() };
-                self.pending.push(Pending { mesh, name, world: *world, material });
+                self.pending.push(Pending { mesh, name, world: *world, material, flat });
             }
         }
         Ok(())
@@ -217,8 +225,15 @@ impl<'w, 'a> Walk<'w, 'a> {
                 Id::new(desc.meshes.len() as u32 - 1)
             }));
         }
-        for Pending { mesh, name, world, material } in self.pending {
-            let Some(id) = ids.get(mesh.number).copied().flatten() else { continue };
+        for Pending { mesh, name, mut world, material, flat } in self.pending {
+            let Some(mut id) = ids.get(mesh.number).copied().flatten() else { continue };
+            if let Some(node) = flat {
+                let Some(Some(flat)) = self.document.keep(flattened(self.document, &node, id, &world, desc))
+                else {
+                    continue;
+                };
+                (id, world) = (flat, DAffine3::from_translation(world.translation));
+            }
             let skin = mesh.skin.and_then(|skin| self.skins.get(&skin));
             let world = skin.map_or(world, |skin| DAffine3::from_translation(skin.anchor));
             desc.shapes.push(ShapeDesc {
@@ -230,6 +245,33 @@ impl<'w, 'a> Walk<'w, 'a> {
             });
         }
     }
+}
+
+/// A mesh as a node shows it that is scaled to zero in some direction, with the node's translation left out: no ray
+/// could be brought into its space. Normals are those of the triangles. `None`, after a warning, if nothing is left.
+fn flattened<'a>(
+    document: &Document<'a>,
+    node: &Element<'a>,
+    id: Id<Mesh>,
+    world: &DAffine3,
+    desc: &mut SceneDesc,
+) -> Checked<Option<Id<Mesh>>> {
+    let Some(mesh) = desc.meshes.get(id.index()) else { return Ok(None) };
+    document.spend(node, mesh.positions.len(), 48)?;
+    document.spend(node, mesh.indices.len(), 12)?;
+    let place = |p: &Point3| Point3::from((world.matrix3 * Point3::to_f64(*p)).as_vec3().to_array());
+    let flat = Mesh {
+        positions: mesh.positions.iter().map(place).collect(),
+        normals: Vec::new(),
+        tangents: Vec::new(),
+        ..Mesh::clone(mesh)
+    };
+    if has_no_area(&flat) {
+        document.warn(node, "a node is scaled to zero and nothing of it is left; it is not drawn");
+        return Ok(None);
+    }
+    desc.meshes.push(Arc::new(flat));
+    Ok(Some(Id::new(desc.meshes.len() as u32 - 1)))
 }
 
 /// KHR_node_visibility: hides a node and all below it.

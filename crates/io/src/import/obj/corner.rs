@@ -31,7 +31,7 @@ pub(super) fn resolve(
         if field.is_empty() && place > 0 {
             continue;
         }
-        let written = integer(field).ok_or(Wrong::Form)?;
+        let written = integer(field).or_else(|| huge(field)).ok_or(Wrong::Form)?;
         let (before, all) = (so_far.get(place).copied().unwrap_or(0), total.get(place).copied().unwrap_or(0));
         let from_zero = if written < 0 { before as i64 + written } else { written - 1 };
         match u32::try_from(from_zero).ok().filter(|&i| (i as usize) < all) {
@@ -45,6 +45,14 @@ pub(super) fn resolve(
         }
     }
     if fields.next().is_some() { Err(Wrong::Form) } else { Ok(indices) }
+}
+
+/// A whole number of more than 18 digits, as one that no file has as many vertices for.
+fn huge(field: &[u8]) -> Option<i64> {
+    let digits = field.strip_prefix(b"-").unwrap_or(field);
+    let is_whole = digits.len() > 18 && digits.iter().all(u8::is_ascii_digit);
+    let most = 999_999_999_999_999_999;
+    is_whole.then_some(if digits.len() < field.len() { -most } else { most })
 }
 
 #[cfg(test)]
@@ -67,6 +75,8 @@ mod tests {
         assert_eq!(at("1/0/7"), (Ok([0, NONE, NONE]), 2));
         assert_eq!(at("0"), (Err(Wrong::Range(0)), 0));
         assert_eq!(at("11"), (Err(Wrong::Range(11)), 0));
+        assert_eq!(at("99999999999999999999999").0, Err(Wrong::Range(999_999_999_999_999_999)));
+        assert_eq!(at("-9223372036854775808").0, Err(Wrong::Range(-999_999_999_999_999_999)));
         assert_eq!(at("-6"), (Err(Wrong::Range(-6)), 0));
         for word in ["", "/1", "1/2/3/4", "a", "1.5"] {
             assert_eq!(at(word).0, Err(Wrong::Form), "{word}");

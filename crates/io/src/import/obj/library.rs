@@ -86,13 +86,20 @@ pub(super) fn load(
     all.retain(|(m, _)| names.contains(m.name.as_str()));
     let mut library = Library::default();
     let mut textures = Textures::load(&all, imported);
+    let mut invisible = Vec::new();
     for (made, folder) in &all {
+        if made.is_invisible() && invisible.len() < 8 {
+            let shown = Part::whole(made.name.as_bytes()).shown();
+            let message = format!("material {shown} is fully transparent (d 0): nothing of it will be seen");
+            invisible.push(Complaint::whole(message).warning());
+        }
         let node = material::node(made, folder, &mut textures);
         let materials = &mut imported.desc.materials;
         library.materials.insert(made.name.clone(), Id::new(materials.len() as u32));
         materials.push(NamedNode { name: made.name.clone(), node });
     }
     imported.desc.textures = std::mem::take(&mut textures.list);
+    complaints.append(&mut invisible);
     let none_found = libraries.is_empty() && !files.is_empty();
     let problems = textures.complaints(&all);
     for (number, library) in libraries.iter().enumerate() {
@@ -169,7 +176,9 @@ fn find(
         }
         *left -= 1;
         let own = format!("{}.mtl", imported.desc.name);
-        let tried = [name.as_str(), last_name(&name), &own];
+        let other = assets.in_other_case(&name).or_else(|| assets.in_other_case(last_name(&name)));
+        let other = other.as_deref().unwrap_or(&own);
+        let tried = [name.as_str(), last_name(&name), other, &own];
         let mut why: Option<AssetError> = None;
         for path in tried {
             match assets.bytes(path) {

@@ -112,7 +112,7 @@ impl Reader {
     }
 
     fn statement(&mut self, word: Part<'_>, words: Words<'_>) {
-        let key = word.text();
+        let key = known(word.text());
         if key == "newmtl" {
             let name = words.rest().trim().text();
             self.materials.push(Material { name, ..Material::default() });
@@ -274,6 +274,13 @@ impl Reader {
     }
 }
 
+/// A word as this file spells it: programs disagree about letter case.
+fn known(word: String) -> String {
+    let maps = MAPS.iter().map(|(name, _)| *name);
+    let mut all = maps.chain(VALUES).chain(IGNORED).chain(UNSUPPORTED);
+    all.find(|name| name.eq_ignore_ascii_case(&word)).map_or(word, str::to_owned)
+}
+
 fn channel(word: Part<'_>) -> Option<&'static str> {
     match word.bytes {
         b"r" => Some("r"),
@@ -299,6 +306,11 @@ impl Material {
     /// The image for `slot`; the last one counts.
     pub(super) fn map(&self, slot: Slot) -> Option<&Map> {
         self.maps.iter().rev().find(|(s, _)| *s == slot).map(|(_, map)| map)
+    }
+    /// True if nothing of it can be seen: `d` is 0, it is no glass and no image says where it is.
+    pub(super) fn is_invisible(&self) -> bool {
+        let glass = matches!(self.illum, Some(3..=7 | 9));
+        self.opacity() == 0.0 && self.map(Slot::Opacity).is_none() && !glass
     }
     /// Share of the surface that is there, by `d`, else by `Tr`. A `Tr` of 1 alone would leave nothing to see: programs
     /// that write it, such as MeshLab, mean the opposite.

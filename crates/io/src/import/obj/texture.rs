@@ -17,6 +17,9 @@ use crate::{
     import::{Imported, text::Complaint},
 };
 
+/// Images that cannot be had, of which each is told.
+const MOST_FAILED: usize = 16;
+
 /// What a texture is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
@@ -143,6 +146,12 @@ impl Textures {
                 ));
             }
         }
+        let more = all.len().saturating_sub(MOST_FAILED);
+        all.truncate(MOST_FAILED);
+        if let (Some((library, last)), true) = (all.last().cloned(), more > 0) {
+            let message = format!("{more} more images cannot be used; drawn without them");
+            all.push((library, Complaint { hint: None, message, ..last }));
+        }
         all
     }
 }
@@ -159,6 +168,10 @@ fn find(assets: &FileAssets, folder: &str, file: &str) -> Result<String, AssetEr
                 why.get_or_insert(error);
             }
         }
+    }
+    let tried = [within(file), within(last_name(file)), last_name(file).to_owned()];
+    if let Some(path) = tried.iter().find_map(|path| assets.in_other_case(path)) {
+        return Ok(path);
     }
     Err(why.unwrap_or_else(|| AssetError::Missing { path: file.to_owned() }))
 }

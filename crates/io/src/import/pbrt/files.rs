@@ -7,7 +7,7 @@ use std::{
     collections::HashMap,
     fs::File,
     io::{ErrorKind, Read},
-    path::{Path, PathBuf},
+    path::{Component, Path, PathBuf},
     sync::Arc,
 };
 
@@ -103,7 +103,15 @@ impl Files {
             diagnostics.error(at, format!("more than {MOST_INCLUDES} files are included"));
             return None;
         }
-        let candidates = [folder.join(name), root.join(name)];
+        // Told before anything is looked for, so that nobody learns what lies outside.
+        let climbs = |from: &Path| climbs_out(from.strip_prefix(&root).unwrap_or(Path::new("")), name);
+        let asked = Path::new(name);
+        let outside = if asked.is_absolute() { !asked.starts_with(&root) } else { climbs(folder) };
+        if outside {
+            diagnostics.error(at, format!("{name}: leads out of the scene's folder"));
+            return None;
+        }
+        let candidates = [folder.join(name), if climbs(&root) { folder.join(name) } else { root.join(name) }];
         let found = candidates.iter().map(|p| p.canonicalize()).find(Result::is_ok);
         let found = match found.unwrap_or_else(|| folder.join(name).canonicalize()) {
             Ok(found) => found,
@@ -186,6 +194,20 @@ impl Files {
         self.bytes = self.bytes.saturating_add(bytes);
         self.bytes <= self.limits.file_bytes
     }
+}
+
+/// True for a path that has more `..` than the folders that it comes through, from `folder` on.
+fn climbs_out(folder: &Path, name: &str) -> bool {
+    let mut depth = folder.components().count();
+    for part in Path::new(name).components() {
+        match part {
+            Component::Normal(_) => depth += 1,
+            Component::ParentDir if depth > 0 => depth -= 1,
+            Component::ParentDir => return true,
+            Component::CurDir | Component::RootDir | Component::Prefix(_) => {}
+        }
+    }
+    false
 }
 
 /// `path` below `root`.

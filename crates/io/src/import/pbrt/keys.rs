@@ -95,6 +95,14 @@ pub(super) fn read(node: &Node, diagnostics: &mut Diagnostics) -> Option<Motion>
     if !args.is_sound() {
         return None;
     }
+    let through_zero = |w: &[Key]| matches!(w, [a, b] if (a.scale * b.scale).min_element() < 0.0);
+    if keys.windows(2).any(through_zero) {
+        args.error(
+            "scale",
+            "a factor changes its sign from one key to the next: between them it is 0 and shapes would be flat",
+        );
+        return None;
+    }
     let refined = refined(&keys).filter(|keys| keys.len() <= MOST_KEYS);
     let Some(refined) = refined else {
         let message = format!("this turns too far: a key every {STEP} degrees makes more than {MOST_KEYS}");

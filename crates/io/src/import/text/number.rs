@@ -31,7 +31,8 @@ pub(crate) fn leading_integer(text: &[u8]) -> Option<(i64, usize)> {
     let (negative, digits) = sign(text);
     let (value, count, rest) = digits_of(digits, 0);
     let value = value as i64;
-    let value = if negative { -value } else { value };
+    // What wraps has too many digits.
+    let value = if negative { value.wrapping_neg() } else { value };
     (ends(rest) && (1..=18).contains(&count)).then_some((value, text.len() - rest.len()))
 }
 

@@ -95,6 +95,12 @@ impl Kind for Infinite {
         }
         let layout = Layout::of_word(args.text("layout"), image.width, image.height);
         let panorama = Panorama::new(image, layout);
+        if panorama.is_black() {
+            args.warning(
+                "filename",
+                "the picture is black everywhere (negative values count as 0): it gives no light",
+            );
+        }
         let pyramid = Pyramid::of(&panorama);
         let mut scale = args.float("scale");
         if let Some(wanted) = args.optional_float("illuminance") {

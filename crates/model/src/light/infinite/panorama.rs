@@ -56,6 +56,11 @@ impl Panorama {
         let [r, g, b, _] = self.texels.rgba(x, y);
         [r.max(0.0), g.max(0.0), b.max(0.0)]
     }
+    /// True if no pixel shines.
+    pub(super) fn is_black(&self) -> bool {
+        let [width, height] = self.size();
+        (0..height).all(|y| (0..width).all(|x| self.pixel(x, y) == [0.0; 3]))
+    }
     /// Linear RGB in unit direction `d`, bilinear.
     pub(super) fn seen(&self, d: Vector3) -> [f32; 3] {
         weighted(self.layout.corners(self.layout.uv(d), self.size()), |x, y| self.pixel(x, y))

@@ -3,7 +3,10 @@ mod patch;
 
 use std::sync::Arc;
 
-use durer_core::math::{Normal3, Point2, Point3};
+use durer_core::{
+    glam::DVec3,
+    math::{Normal3, Point2, Point3},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 pub use patch::Patch;
@@ -63,6 +66,15 @@ impl Kind for BilinearMesh {
             args.error("P", format!("vertex {vertex} is not finite"));
         }
         let quads = quads(args, points.len());
+        let flat = |q: &[usize; 4]| {
+            let [a, b, c, d] = q.map(|i| points.get(i).copied().unwrap_or(Point3::ZERO).to_f64());
+            // The four triangles of a patch that is a line or a point have no area.
+            let area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p) != DVec3::ZERO;
+            !(area(a, b, c) || area(a, b, d) || area(a, c, d) || area(b, c, d))
+        };
+        if args.is_sound() && !quads.is_empty() && quads.iter().all(flat) {
+            args.warning("P", "no patch has an area: nothing of this shape will be seen");
+        }
         let of = |q: [usize; 4]| {
             let patch = Patch::new(q.map(|i| points[i]));
             let patch = if normals.is_empty() { patch } else { patch.with_normals(q.map(|i| normals[i])) };
