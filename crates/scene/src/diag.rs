@@ -164,6 +164,7 @@ impl<'a> IntoIterator for &'a Diagnostics {
 }
 
 #[cfg(test)]
+#[allow(clippy::indexing_slicing, reason = "a test that fails may panic")]
 mod tests {
     use super::*;
 
