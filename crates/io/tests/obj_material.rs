@@ -260,5 +260,5 @@ fn many_missing_images_are_told_in_a_few_lines() {
     let obj = format!("mtllib a.mtl\n{TRIANGLE}{faces}");
     let told = said(&import(&[("a.obj", obj.as_bytes()), ("a.mtl", names.as_bytes())]), Severity::Warning);
     assert_eq!(told.len(), 17);
-    assert!(told[16].ends_with("484 more images cannot be had; drawn without them"), "{told:?}");
+    assert!(told[16].ends_with("484 more images cannot be used; drawn without them"), "{told:?}");
 }

@@ -12,7 +12,7 @@ use std::{
 };
 
 use crate::{assets::looked_in, gzip};
-use durer_scene::{Diagnostics, Limits, Location, SourceId, Sources, Span};
+use durer_scene::{AssetError, Diagnostics, Limits, Location, SourceId, Sources, Span};
 
 /// True if spans, which count bytes in 32 bits, can point at all of `text`.
 pub(super) fn spans_fit(text: &str) -> bool {
@@ -108,7 +108,7 @@ impl Files {
         let asked = Path::new(name);
         let outside = if asked.is_absolute() { !asked.starts_with(&root) } else { climbs(folder) };
         if outside {
-            diagnostics.error(at, format!("{name}: leads out of the scene's folder"));
+            refuse_outside(name, at, diagnostics);
             return None;
         }
         let candidates = [folder.join(name), if climbs(&root) { folder.join(name) } else { root.join(name) }];
@@ -131,14 +131,7 @@ impl Files {
             }
         };
         if !found.starts_with(&root) {
-            diagnostics
-                .error(
-                    at,
-                    format!(
-                        "{name}: leads out of the scene's folder (for safety only files below it are read)"
-                    ),
-                )
-                .hint("copy the file into the scene's folder");
+            refuse_outside(name, at, diagnostics);
             return None;
         }
         if open.contains(&found) {
@@ -309,4 +302,9 @@ fn with_replacements(bytes: &[u8]) -> (String, Option<u32>) {
         }
     }
     (text, first)
+}
+
+fn refuse_outside(name: &str, at: Span, diagnostics: &mut Diagnostics) {
+    let error = AssetError::Outside { path: name.to_owned() };
+    diagnostics.error(at, error.to_string()).hint("copy the file into the scene's folder");
 }
