@@ -1,5 +1,9 @@
 //! The facts to read.
-use std::{collections::BTreeSet, fmt::Write, time::Duration};
+use std::{
+    collections::{BTreeSet, HashMap},
+    fmt::Write,
+    time::Duration,
+};
 
 use durer::{
     Imported,
@@ -128,22 +132,19 @@ fn bounds(b: &WorldBounds, largest: f64) -> String {
 
 /// An image or texture a line, with how many textures are the same but for their names.
 fn textures(list: &[TextureFacts<'_>], detail: Detail) -> Vec<String> {
-    let mut folded: Vec<(String, usize)> = Vec::new();
+    let mut folded = Folded::default();
     for texture in list {
         let line = match (texture.image, texture.width.zip(texture.height)) {
             (Some(image), Some((w, h))) => format!("{image}, {w} x {h} pixels"),
             (Some(image), None) => format!("{image}, not read"),
             (None, _) => format!("{} ({})", texture.name, texture.kind),
         };
-        match folded.iter_mut().find(|(other, _)| *other == line) {
-            Some((_, times)) => *times += 1,
-            None => folded.push((line, 1)),
-        }
+        folded.add(line);
     }
     let images = list.iter().filter_map(|t| t.image).collect::<BTreeSet<_>>().len();
     let images =
         if images > 0 { format!(", {}", counted(images as u64, "image", "images")) } else { String::new() };
-    let lines = folded.into_iter().map(|(line, times)| match times {
+    let lines = folded.list.into_iter().map(|(line, times)| match times {
         1 => line,
         n => format!("{line}, in {n} textures"),
     });
@@ -197,16 +198,35 @@ fn headed(head: String, lines: Vec<String>, detail: Detail) -> Vec<String> {
     rows
 }
 
-/// Names in a row, those without one by their kinds with how many there are.
-fn names(list: &[Named<'_>], detail: Detail) -> String {
-    let mut folded: Vec<(String, usize)> = Vec::new();
-    for n in list {
-        match folded.iter_mut().find(|(kind, _)| n.name.is_empty() && kind == n.kind) {
-            Some((_, times)) => *times += 1,
-            None if n.name.is_empty() => folded.push((n.kind.to_owned(), 1)),
-            None => folded.push((format!("{} ({})", n.name, n.kind), 1)),
+/// Words in the order they came first, each with how often it came.
+#[derive(Default)]
+struct Folded {
+    list: Vec<(String, usize)>,
+    known: HashMap<String, usize>,
+}
+
+impl Folded {
+    fn add(&mut self, word: String) {
+        match self.known.get(&word) {
+            Some(&at) => self.list[at].1 += 1,
+            None => {
+                self.known.insert(word.clone(), self.list.len());
+                self.list.push((word, 1));
+            }
         }
     }
+}
+
+/// Names in a row, those without one by their kinds with how many there are.
+fn names(list: &[Named<'_>], detail: Detail) -> String {
+    let mut folded = Folded::default();
+    for n in list {
+        match n.name.is_empty() {
+            true => folded.add(n.kind.to_owned()),
+            false => folded.list.push((format!("{} ({})", n.name, n.kind), 1)),
+        }
+    }
+    let folded = folded.list;
     let more = folded.len().saturating_sub(detail.names());
     let words = folded.into_iter().take(detail.names()).map(|(word, times)| match times {
         1 => word,

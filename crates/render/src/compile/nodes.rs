@@ -81,8 +81,8 @@ impl Builder<'_> {
     /// The textures that could be built; a texture may use only those described before it, so there are no loops.
     pub(super) fn textures(&mut self) -> Vec<Box<dyn Texture>> {
         let all = &self.desc.textures;
-        let mut of = |t: &TextureDesc| stand_in(&t.node, "texture", texture::NOT_YET, self.diagnostics);
-        let nodes: Vec<_> = all.iter().map(&mut of).collect();
+        warn_stand_ins("texture", all.iter().map(|t| &t.node), texture::NOT_YET, self.diagnostics);
+        let nodes: Vec<_> = all.iter().map(|t| stand_in(&t.node, texture::NOT_YET)).collect();
         let built = self.build_all(all, |this, i, t| {
             let before = all.get(..i).unwrap_or_default();
             this.apart(texture::textures(t.value), "texture", &nodes[i], before)
@@ -92,8 +92,10 @@ impl Builder<'_> {
 
     pub(super) fn materials(&mut self) -> Vec<Box<dyn Material>> {
         let mut materials = Vec::new();
-        for named in &self.desc.materials {
-            let node = stand_in(&named.node, "material", material::NOT_YET, self.diagnostics);
+        let all = &self.desc.materials;
+        warn_stand_ins("material", all.iter().map(|m| &m.node), material::NOT_YET, self.diagnostics);
+        for named in all {
+            let node = stand_in(&named.node, material::NOT_YET);
             materials.extend(self.build(MATERIALS, "material", &node, &self.desc.textures));
         }
         materials
@@ -103,7 +105,7 @@ impl Builder<'_> {
     pub(super) fn shapes(&mut self) -> Vec<Option<Geometry>> {
         let shapes = &self.desc.shapes;
         let left_out: Vec<&Node> = shapes.iter().filter_map(not_yet).collect();
-        warn_not_yet("shape", "is left out", &left_out, self.diagnostics);
+        warn_not_yet("shape", "left out", &left_out, self.diagnostics);
         if !shapes.is_empty() && left_out.len() == shapes.len() {
             let message = "nothing is left to draw: none of the scene's shapes is supported yet";
             self.diagnostics.error(Location::None, message);
@@ -142,7 +144,7 @@ impl Builder<'_> {
     ) -> Vec<(Box<dyn Light>, String)> {
         let is_not_yet = |desc: &&LightDesc| light::NOT_YET.contains(&desc.node.kind.as_str());
         let left_out: Vec<&Node> = lights.iter().filter(is_not_yet).map(|desc| &desc.node).collect();
-        warn_not_yet("light", "gives no light", &left_out, self.diagnostics);
+        warn_not_yet("light", "it gives no light", &left_out, self.diagnostics);
         let mut built = Vec::new();
         for desc in lights.iter().filter(|desc| !is_not_yet(desc)) {
             let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
@@ -189,16 +191,29 @@ fn warn_not_yet(family: &str, what: &str, nodes: &[&Node], diagnostics: &mut Dia
     }
     for (first, uses) in kinds {
         let times = if uses > 1 { format!(" ({uses} of them)") } else { String::new() };
-        let message = format!("{family} \"{}\" is not supported yet and {what}{times}", first.kind);
+        let message = format!("{family} \"{}\" is not supported yet: {what}{times}", first.kind);
         diagnostics.warning(first.at.clone(), message);
     }
 }
 
+/// One warning for each kind among `nodes` that [`stand_in`] replaces, at its first use.
+fn warn_stand_ins<'n>(
+    family: &str,
+    nodes: impl Iterator<Item = &'n Node>,
+    not_yet: &[(&str, &str)],
+    diagnostics: &mut Diagnostics,
+) {
+    let replaced = |node: &&Node| not_yet.iter().any(|(word, _)| *word == node.kind);
+    let replaced: Vec<&Node> = nodes.filter(replaced).collect();
+    for (word, instead) in not_yet {
+        let of_kind: Vec<&Node> = replaced.iter().copied().filter(|node| node.kind == *word).collect();
+        warn_not_yet(family, &format!("drawn as \"{instead}\""), &of_kind, diagnostics);
+    }
+}
+
 /// The node itself, or the registered kind that is used until we have this one.
-fn stand_in(node: &Node, family: &str, not_yet: &[(&str, &str)], diagnostics: &mut Diagnostics) -> Node {
+fn stand_in(node: &Node, not_yet: &[(&str, &str)]) -> Node {
     let Some((_, instead)) = not_yet.iter().find(|(word, _)| *word == node.kind) else { return node.clone() };
-    let message = format!("{family} \"{}\" is not supported yet; \"{instead}\" is used", node.kind);
-    diagnostics.warning(node.at.clone(), message);
     let params =
         node.params.iter().filter(|p| p.name == "reflectance").cloned().fold(Params::new(), |mut all, p| {
             all.push(p);
