@@ -101,7 +101,7 @@ fn check_content(
         n => format!("none of the scene's shapes has a triangle: {n}"),
     };
     let message = format!("nothing to draw: {found}, and no sky of its own");
-    let hint = "look into the export: points, lines and objects that the scene does not use are not drawn";
+    let hint = "surfaces are drawn; points, lines and objects that the scene does not use are not";
     match nothing {
         Missing::Refuse => diagnostics.error(Location::None, message).hint(hint),
         Missing::Warn => diagnostics.warning(Location::None, message).hint(hint),

@@ -153,7 +153,7 @@ fn wrong_statements_are_told_with_line_and_column() {
         "4:1: expected numbers",
         "5:1: a coordinate is nan or infinite",
         "6:7: there is no vertex 9: the file has 4",
-        "7:7: there are fewer than 7 vertices before this",
+        "7:7: -7 counts backwards, but there are fewer than 7 vertices before this",
         "8:5: there is no vertex 0",
         "9:7: expected a corner such as 1, 1/1, 1//1 or 1/1/1, found \"a\"",
     ];

@@ -293,7 +293,10 @@ fn complaint(word: Part<'_>, wrong: Wrong, total: [usize; 3]) -> Complaint {
             .hint("vertices are counted from 1, or backwards from -1"),
         Wrong::Range(n) if n < 0 => Complaint::error(
             word.range(),
-            format!("there are fewer than {} vertices before this", n.unsigned_abs()),
+            format!(
+                "{n} counts backwards, but there are fewer than {} vertices before this",
+                n.unsigned_abs()
+            ),
         ),
         Wrong::Range(n) => {
             let message = format!("there is no vertex {n}: the file has {vertices}");

@@ -260,6 +260,10 @@ fn scalar(word: Part<'_>) -> Result<Scalar, Complaint> {
     if let Some((_, _, ty)) = TYPES.iter().find(|(a, b, _)| [*a, *b].contains(&text.as_str())) {
         return Ok(*ty);
     }
+    if text.contains(|c: char| c.is_control() || c == '\u{fffd}') {
+        let message = "the header holds bytes that are no text: the file is damaged";
+        return Err(Complaint::error(word.range(), message).hint("copy or export it again"));
+    }
     let complaint = Complaint::error(word.range(), format!("unknown type \"{}\"", word.shown()));
     let names = TYPES.iter().flat_map(|(a, b, _)| [*a, *b]);
     Err(match nearest_word(&text, names.clone()) {
