@@ -98,7 +98,8 @@ fn check_content(
     }
     let found = match desc.shapes.len() {
         0 => "the scene has no shapes".to_owned(),
-        n => format!("none of the scene's shapes has a triangle: {n}"),
+        1 => "the scene's only shape has no triangle".to_owned(),
+        n => format!("none of the scene's {n} shapes has a triangle"),
     };
     let message = format!("nothing to draw: {found}, and no sky of its own");
     let hint = "surfaces are drawn; points, lines and objects that the scene does not use are not";

@@ -132,3 +132,23 @@ fn rays_from_a_point_exactly_on_the_sphere_do_not_meet_it_at_once() {
     let across = sphere.intersect(&Ray::new(o, Vector3::new(-0.5, 0.0, 0.0))).expect("the far side");
     assert_eq!(across.t, 4.0);
 }
+
+#[test]
+fn rays_that_graze_away_from_the_point_they_start_on_hit_nothing() {
+    // (3, 4, 0) lies on the sphere exactly. With `o . d > 0`, which f64 tells exactly here, no root is positive; what
+    // rounding makes of the double root at a tangent must not count.
+    let sphere = shape("sphere", Params::new().float("radius", 5.0));
+    let mut random = Random::new(5);
+    let mut rays = 0;
+    for _ in 0..200_000 {
+        let (along, up) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        let away = 10f64.powf(random.between(-12.0, -3.0));
+        let d = DVec3::new(-0.8, 0.6, 0.0) * along + DVec3::Z * up + DVec3::new(0.6, 0.8, 0.0) * away;
+        let ray = ray(DVec3::new(3.0, 4.0, 0.0), d);
+        if 3.0 * f64::from(ray.d.x) + 4.0 * f64::from(ray.d.y) > 0.0 {
+            rays += 1;
+            assert_eq!(sphere.intersect(&ray), None, "{ray:?}");
+        }
+    }
+    assert!(rays > 100_000, "only {rays} rays");
+}
