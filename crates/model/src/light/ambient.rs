@@ -1,12 +1,11 @@
 //! The constant `I_a` of the classic formula: light from nowhere that only the ambient term sees.
 use durer_core::{
-    math::{Normal3, Point3, Transform},
-    sampling::Sampler,
+    math::{Normal3, Transform},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Light, LightSample};
+use super::Light;
 
 /// An ambient light.
 #[derive(Debug)]
@@ -38,14 +37,8 @@ impl Kind for Ambient {
 
 impl Light for Ambient {
     fn place(&mut self, _render_from_light: &Transform) {}
-    fn is_sampled(&self) -> bool {
-        false
-    }
     fn surrounds(&self) -> bool {
         true
-    }
-    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        None
     }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {
         basis.emission(self.radiance)

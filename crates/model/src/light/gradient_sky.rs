@@ -4,13 +4,12 @@
 //! horizon and `horizon + (ground - horizon) v(-s)`, `v = 1 - (1 - s)^8`, below: continuous, with a thin rim of haze under
 //! the horizon. The ambient term and glossy reflections weigh the three colours by blurred `w` and `v` (`sky_blur.rs`).
 use durer_core::{
-    math::{Normal3, Point3, Transform, Vector3, float::sqr},
-    sampling::Sampler,
+    math::{Normal3, Transform, Vector3, float::sqr},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightSample, sky_blur::SkyBlur};
+use super::{Light, sky_blur::SkyBlur};
 
 /// A gradient sky.
 #[derive(Debug)]
@@ -90,14 +89,8 @@ impl Light for GradientSky {
     fn place(&mut self, render_from_light: &Transform) {
         self.up = render_from_light.vector(self.up).normalize();
     }
-    fn is_sampled(&self) -> bool {
-        false
-    }
     fn surrounds(&self) -> bool {
         true
-    }
-    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        None
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let s = n.dot(self.up);

@@ -43,12 +43,11 @@ pub trait Light: Debug + Send + Sync {
     fn place(&mut self, render_from_light: &Transform);
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
-    fn sample(&self, basis: Basis, p: Point3, sampler: &Sampler) -> Option<LightSample>;
-    /// Whether [`Light::sample`] ever yields anything: rays are cast to the light.
-    fn is_sampled(&self) -> bool {
-        true
+    fn sample(&self, basis: Basis, p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let _ = (basis, p, sampler);
+        None
     }
-    /// Whether it surrounds the scene: it has an ambient term or is seen by rays that left.
+    /// Whether it surrounds the scene: it is not sampled, but has an ambient term or is seen by rays that left.
     fn surrounds(&self) -> bool {
         false
     }

@@ -114,7 +114,7 @@ pub fn compile(
         objects: placed.objects,
         materials,
         textures,
-        lamps: those(|light| light.is_sampled()),
+        lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
         lights,
         light_names,

@@ -10,14 +10,13 @@ mod pyramid;
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Normal3, Point3, Transform, Vector3},
-    sampling::Sampler,
+    math::{Normal3, Transform, Vector3},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{blur::Blur, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, LightSample, scaled};
+use super::{Light, scaled};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -135,14 +134,8 @@ impl Light for Infinite {
             picture.render_from_light = *render_from_light;
         }
     }
-    fn is_sampled(&self) -> bool {
-        false
-    }
     fn surrounds(&self) -> bool {
         true
-    }
-    fn sample(&self, _basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        None
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         self.emitted(basis, Vector3::new(n.x, n.y, n.z), |p, n| p.blur.ambient(n))
