@@ -18,6 +18,8 @@ mod accel;
 mod build;
 mod error;
 mod geometry;
+#[allow(dead_code, unreachable_pub)]
+mod grow;
 mod hit;
 mod placement;
 mod probe;

@@ -1,0 +1,101 @@
+//! Writes down the wide tree that was chosen, depth first.
+use super::{
+    Child, WideTree,
+    binary::{Binary, Node},
+    collapse::{Choices, WIDEST},
+};
+
+/// The wide tree of `choices`.
+pub(super) fn emit(tree: &Binary, choices: &Choices) -> WideTree {
+    let mut emission = Emission { tree, choices, wide: WideTree::default() };
+    emission.wide.order.reserve_exact(tree.order.len());
+    if emission.is_leaf(0) {
+        emission.wide.nodes.push(0);
+        emission.child(0);
+    } else {
+        emission.node(0);
+    }
+    let mut wide = emission.wide;
+    wide.nodes.push(wide.children.len() as u32);
+    wide.nodes.shrink_to_fit();
+    wide.children.shrink_to_fit();
+    wide
+}
+
+struct Emission<'a> {
+    tree: &'a Binary,
+    choices: &'a Choices,
+    wide: WideTree,
+}
+
+/// The children of a wide node: binary nodes.
+#[derive(Default)]
+struct Roots {
+    names: [u32; WIDEST],
+    count: usize,
+}
+
+impl Emission<'_> {
+    fn is_leaf(&self, name: u32) -> bool {
+        matches!(self.tree.nodes[name as usize].node(), Node::Leaf { .. }) || self.choices.of(name).is_leaf()
+    }
+
+    /// Writes a wide node and all below it.
+    fn node(&mut self, name: u32) {
+        let mut roots = Roots::default();
+        if let Node::Inner([left, right]) = self.tree.nodes[name as usize].node() {
+            let k = self.choices.of(name).left_of(self.choices.width);
+            self.gather(left, k, &mut roots);
+            self.gather(right, self.choices.width - k, &mut roots);
+        }
+        let first = self.wide.children.len();
+        self.wide.nodes.push(first as u32);
+        for &root in &roots.names[..roots.count] {
+            self.child(root);
+        }
+        for (place, &root) in roots.names[..roots.count].iter().enumerate() {
+            if !self.is_leaf(root) {
+                self.wide.children[first + place].first = self.wide.nodes.len() as u32;
+                self.node(root);
+            }
+        }
+    }
+
+    /// Finds the cheapest forest of at most `most` trees below a binary node.
+    fn gather(&self, name: u32, most: usize, roots: &mut Roots) {
+        if let Node::Inner([left, right]) = self.tree.nodes[name as usize].node() {
+            let choice = self.choices.of(name);
+            for i in (2..=most).rev() {
+                let k = choice.left_of(i);
+                if k > 0 {
+                    self.gather(left, k, roots);
+                    return self.gather(right, i - k, roots);
+                }
+            }
+        }
+        roots.names[roots.count] = name;
+        roots.count += 1;
+    }
+
+    /// Writes a child of a wide node; an inner one learns its number later.
+    fn child(&mut self, name: u32) {
+        let bounds = self.tree.nodes[name as usize].0.bounds();
+        let first = self.wide.order.len();
+        if self.is_leaf(name) {
+            self.primitives(name);
+        }
+        let count = self.wide.order.len() - first;
+        self.wide.children.push(Child { bounds, first: first as u32, count: count as u32 });
+    }
+
+    /// Writes the primitives below a binary node.
+    fn primitives(&mut self, name: u32) {
+        match self.tree.nodes[name as usize].node() {
+            Node::Inner(below) => below.into_iter().for_each(|name| self.primitives(name)),
+            Node::Leaf { first, count } => {
+                let range = first as usize..(first + count) as usize;
+                self.wide.order.extend_from_slice(&self.tree.order[range]);
+            }
+        }
+    }
+}

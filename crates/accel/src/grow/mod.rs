@@ -1,0 +1,84 @@
+//! Grows the tree of boxes that rays walk: top down by the surface area heuristic, then collapsed to wide nodes.
+//!
+//! 1. `top_down`: a binary tree by binned SAH (Wald 2007, "On fast Construction of SAH-based Bounding Volume
+//!    Hierarchies").
+//! 2. `collapse`: the cheapest tree of wide nodes and leaf packets that the binary tree contains, by dynamic
+//!    programming (Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+//!    BVHs").
+//!
+//! Visiting a node and visiting a packet of primitives cost 1 each. The result does not depend on the number of
+//! threads: chunks are of fixed size, and what is merged across threads are minima, maxima and whole numbers.
+mod binary;
+mod bins;
+mod collapse;
+mod emit;
+mod hull;
+mod partition;
+#[cfg(test)]
+mod tests;
+mod top_down;
+
+use durer_core::math::Bounds3;
+
+/// How much work goes into a tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// For geometry that changes from frame to frame.
+    Fast,
+    /// For most pictures.
+    #[default]
+    Balanced,
+    /// For pictures that take minutes.
+    High,
+}
+
+/// Most primitives that share a leaf.
+pub(crate) const PACKET: usize = 8;
+/// Levels of the tree at most, the root being one.
+pub(crate) const DEPTH_MAX: u32 = 64;
+
+/// What a tree is grown over.
+pub(crate) trait Primitives: Sync {
+    /// How many; less than 2^31.
+    fn len(&self) -> usize;
+    /// A box around one of them: finite and not empty, though it may be flat or a point.
+    fn bounds(&self, prim: u32) -> Bounds3;
+    /// Whether up to [`PACKET`] such share a leaf (triangles); otherwise it is alone in its leaf.
+    fn packs(&self, prim: u32) -> bool;
+    /// Boxes of the parts of `prim` inside `within` on the lower and upper side of the plane `axis = at`; a side
+    /// without any part is empty. `None`: it cannot be cut.
+    fn clip(&self, prim: u32, within: &Bounds3, axis: usize, at: f32) -> Option<[Bounds3; 2]>;
+}
+
+/// One child of a wide node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Child {
+    /// Contains all below.
+    pub(crate) bounds: Bounds3,
+    /// The number of an inner node, or of the first entry of `order` in a leaf.
+    pub(crate) first: u32,
+    /// Entries of `order`; 0 for an inner node.
+    pub(crate) count: u32,
+}
+
+/// A tree of wide nodes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WideTree {
+    /// The first child of each node, then an end mark. Depth first, a parent before its children; no nodes, and no end
+    /// mark, if there are no primitives.
+    pub(crate) nodes: Vec<u32>,
+    /// The children of all nodes, those of a node side by side.
+    pub(crate) children: Vec<Child>,
+    /// Primitives, leaf by leaf.
+    pub(crate) order: Vec<u32>,
+}
+
+/// The tree over `prims` with at most `width` (8 or 16) children a node and at most 64 levels.
+pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> WideTree {
+    if prims.len() == 0 {
+        return WideTree::default();
+    }
+    let _ = preset;
+    let tree = top_down::build(prims);
+    collapse::collapse(&tree, prims, width)
+}
