@@ -4,9 +4,7 @@
 //! inwards (`diffuse`) and short shadow rays (`occlusion`). Thread time is not measured: run it on an idle machine.
 use std::time::Instant;
 
-use durer_accel::{
-    Accel, AccelBuilder, BuildOptions, NoTraversalProbe, NoUserGeometry, Placement, Triangles,
-};
+use durer_accel::{Accel, AccelBuilder, BuildOptions, Placement, Triangles};
 use durer_core::math::{Point3, Ray, Vector3, float};
 
 const RINGS: u32 = 1000;
@@ -58,10 +56,10 @@ fn main() {
     let start = Instant::now();
     let id = builder.triangles(mesh).expect("the mesh is finite");
     builder.instance(id, Placement::Identity).expect("the identity is invertible");
-    let accel = builder.build();
+    let accel = builder.build().expect("within limits");
     println!("built in {:.2} s: {:?}", start.elapsed().as_secs_f64(), accel.stats());
 
-    let closest = |accel: &Accel, ray: &Ray| accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ());
+    let closest = |accel: &Accel, ray: &Ray| accel.query(ray).closest();
     let side = (RAYS as f32).sqrt() as u32;
     let primary: Vec<Ray> = (0..RAYS)
         .map(|i| {
@@ -79,5 +77,5 @@ fn main() {
         diffuse.iter().map(|r| Ray { t_max: 0.1, ..Ray::new(r.o, r.o - Point3::ZERO) }).collect();
     measure("primary", &primary, |r| closest(&accel, r).is_some());
     measure("diffuse", &diffuse, |r| closest(&accel, r).is_some());
-    measure("occlusion", &occlusion, |r| accel.any(r, &NoUserGeometry, &mut NoTraversalProbe, ()));
+    measure("occlusion", &occlusion, |r| accel.query(r).any());
 }

@@ -1,117 +1,144 @@
-//! The frozen scene: queries and what a debugger may ask.
-use durer_core::math::{Bounds3, Point3, Ray, Transform};
+//! The frozen scene, and what a debugger may ask.
+use durer_core::math::{Bounds3, Transform};
 
 use crate::{
-    BuildStats, Engine, GeometryId, Hit, TraversalProbe, UserGeometry,
-    geometry::Geometry,
+    BuildOptions, BuildStats, Engine, GeometryId, Isa, Precision, Visibility,
+    build::Stretch,
+    geometry::{Geometry, Items},
+    isa::Registers,
+    layout::{MovingNode, Node},
+    owners::Owners,
     placement::Pose,
-    space::Space,
-    traverse::{Query, TopLevel},
-    tree::{Span, Tree},
+    tree::{Forest, Tree, Trees},
 };
 
 /// A geometry somewhere.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
     pub(crate) geometry: GeometryId,
-    pub(crate) pose: Pose,
-    /// Box in render space around everything, over all time.
-    pub(crate) bounds: Bounds3,
-    /// That box is finite and excludes something.
+    /// Which of the movers it is, or [`Instance::STANDS`].
+    pub(crate) mover: u32,
+    pub(crate) seen: Visibility,
+    /// That its box is finite.
     pub(crate) is_bounded: bool,
-    /// The same around its finite primitives.
+    /// Box in render space around everything, over all time, grown once by the slack of box tests.
+    pub(crate) bounds: Bounds3,
+    /// Box around its finite primitives.
     pub(crate) finite: Bounds3,
+    pub(crate) pose: Pose,
+}
+
+impl Instance {
+    pub(crate) const STANDS: u32 = u32::MAX;
+}
+
+/// Instances that move.
+#[derive(Clone, Debug)]
+pub(crate) struct Movers {
+    /// Trees over them, one for each stretch of time.
+    pub(crate) forest: Forest,
+    /// Moments at which stretches begin and end.
+    pub(crate) times: Vec<f32>,
+    /// Their boxes at both ends of each stretch, grown once.
+    pub(crate) boxes: Vec<Vec<Stretch>>,
 }
 
 /// A node's box, for pictures of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeBounds {
-    /// In object space of `geometry`, or in render space.
+    /// In object space of `geometry`, or in render space. Of a tree that moves, at the start of its stretch of time.
     pub bounds: Bounds3,
-    /// Whose tree the node belongs to; `None` for the tree of instances.
+    /// Whose tree the node belongs to; `None` for the trees of the whole scene.
     pub geometry: Option<GeometryId>,
-    /// Primitives (or instances) right below; 0 for an inner node.
+    /// Children that hold primitives or instances; 0 if all are nodes.
     pub leaf_items: u32,
 }
 
-/// A scene of instances, ready for rays. Made by `AccelBuilder::build`; never changes.
+/// A scene of instances, ready for rays. Made by `AccelBuilder::build`.
 #[derive(Clone, Debug)]
 pub struct Accel {
     pub(crate) engine: Engine,
-    pub(crate) top: Tree,
-    /// Instances in the order of the tree's leaves.
-    pub(crate) order: Vec<u32>,
+    pub(crate) precision: Precision,
+    pub(crate) registers: Registers,
+    /// The tree of everything that stands still and is used once, and of the instances that stand still.
+    pub(crate) scene: Forest,
+    pub(crate) movers: Option<Movers>,
     pub(crate) geometries: Vec<Geometry>,
     pub(crate) instances: Vec<Instance>,
-    bounds: Bounds3,
-    /// The one instance is its geometry itself: rays need not pass a tree of instances. PERF: scenes of still things used
-    /// once are like that (bench render).
-    pub(crate) is_flat: bool,
+    /// Whose the primitives of `scene` are.
+    pub(crate) owners: Owners,
+    /// Some instance of `scene` is not seen by all rays.
+    pub(crate) is_selective: bool,
+    pub(crate) bounds: Bounds3,
+}
+
+/// The parts of a scene.
+pub(crate) struct Parts {
+    pub(crate) registers: Registers,
+    pub(crate) scene: Forest,
+    pub(crate) movers: Option<Movers>,
+    pub(crate) geometries: Vec<Geometry>,
+    pub(crate) instances: Vec<Instance>,
+    pub(crate) owners: Owners,
 }
 
 impl Accel {
-    pub(crate) fn assemble(
-        engine: Engine,
-        mut geometries: Vec<Geometry>,
-        instances: Vec<Instance>,
-        (top, order): (Tree, Vec<u32>),
-    ) -> Self {
-        let mut base = top.len() as u32;
-        for geometry in &mut geometries {
-            geometry.tree.base = base;
-            base += geometry.tree.len() as u32;
-        }
+    pub(crate) fn new(options: &BuildOptions, parts: Parts) -> Self {
+        let Parts { registers, scene, movers, geometries, instances, owners } = parts;
         let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
-        let is_flat =
-            matches!(instances.as_slice(), [only] if only.pose.is_identity()) && engine == Engine::Bvh;
-        Self { engine, top, order, geometries, instances, bounds, is_flat }
-    }
-
-    /// The nearest hit of `ray` with `t` in `[t_min, t_max]`; on equal `t` the one with the smaller
-    /// `(instance, prim)`. `probe` watches, events carry `id`.
-    pub fn closest<U: UserGeometry, P: TraversalProbe>(
-        &self,
-        ray: &Ray,
-        user: &U,
-        probe: &mut P,
-        id: P::Id,
-    ) -> Option<Hit> {
-        let (world, t_max) = self.space(ray)?;
-        let mut best = Hit::nothing(t_max);
-        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world, t_max };
-        if self.is_flat {
-            level.only(|tree, leaves| tree.nearest(&world.slab, ray.t_min, &mut best, leaves));
-        } else {
-            self.top.nearest(&world.slab, ray.t_min, &mut best, &mut level);
-        }
-        best.found()
-    }
-
-    /// Whether anything is hit with `t` in `[t_min, t_max]`: equal to `closest(..).is_some()`, but faster.
-    pub fn any<U: UserGeometry, P: TraversalProbe>(
-        &self,
-        ray: &Ray,
-        user: &U,
-        probe: &mut P,
-        id: P::Id,
-    ) -> bool {
-        let Some((world, t_max)) = self.space(ray) else {
-            return false;
+        let is_selective = instances.iter().any(|i| i.seen.mask != u32::MAX);
+        let (engine, precision) = (options.engine, options.precision);
+        let mut accel = Self {
+            engine,
+            precision,
+            registers,
+            scene,
+            movers,
+            geometries,
+            instances,
+            owners,
+            is_selective,
+            bounds,
         };
-        let mut level = TopLevel { accel: self, query: Query { user, probe, id }, world: &world, t_max };
-        let span = Span { t_min: ray.t_min, t_max };
-        if self.is_flat {
-            return level.only(|tree, leaves| tree.blocks(&world.slab, span, leaves)) == Some(true);
-        }
-        self.top.blocks(&world.slab, span, &mut level)
+        accel.name_nodes();
+        accel
     }
 
-    /// The ray made ready, and where it ends.
-    fn space<'r>(&self, ray: &'r Ray) -> Option<(Space<'r>, f32)> {
-        // A finite end keeps infinity, which a shape's division by 0 may return, from counting as a hit.
-        let t_max = if ray.t_max == f32::INFINITY { f32::MAX } else { ray.t_max };
-        let valid = ray.t_min <= t_max;
-        if valid { Some((Space::new(ray, &self.bounds)?, t_max)) } else { None }
+    /// Gives each tree the first of its nodes' names.
+    fn name_nodes(&mut self) {
+        let own = self.geometries.iter_mut().filter_map(|geometry| geometry.forest.as_mut());
+        let movers = self.movers.iter_mut().map(|movers| &mut movers.forest);
+        let mut base = 0;
+        for tree in std::iter::once(&mut self.scene).chain(movers).chain(own).flat_map(Forest::trees_mut) {
+            tree.base = base;
+            base += tree.nodes;
+        }
+    }
+
+    /// All trees and whose they are.
+    fn trees(&self) -> impl Iterator<Item = (Option<GeometryId>, &Forest, &Tree)> {
+        let own =
+            (0..).zip(&self.geometries).filter_map(|(i, g)| Some((Some(GeometryId(i)), g.forest.as_ref()?)));
+        let movers = self.movers.iter().map(|movers| (None, &movers.forest));
+        let all = std::iter::once((None, &self.scene)).chain(movers).chain(own);
+        all.flat_map(|(id, forest)| forest.trees().iter().map(move |tree| (id, forest, tree)))
+    }
+
+    /// What primitives of an instance are.
+    #[inline]
+    pub(crate) fn items(&self, instance: u32) -> &Items {
+        &self.geometries[self.instances[instance as usize].geometry.index()].items
+    }
+
+    /// Number, u and v of a primitive of a tree as callers know it: of the two triangles of a quad the second counts
+    /// from the other corner.
+    #[inline]
+    pub(crate) fn called(&self, instance: u32, prim: u32, u: f32, v: f32) -> (u32, f32, f32) {
+        match self.items(instance) {
+            Items::Quads(_) if prim % 2 == 1 => (prim / 2, 1.0 - u, 1.0 - v),
+            Items::Quads(_) => (prim / 2, u, v),
+            Items::Triangles(_) | Items::Boxes(_) => (prim, u, v),
+        }
     }
 
     /// Box in render space around all finite primitives, over all time; empty if there are none.
@@ -119,44 +146,48 @@ impl Accel {
         self.bounds
     }
 
+    /// Which instructions walk.
+    pub fn isa(&self) -> Isa {
+        self.registers.isa()
+    }
+
     /// Sizes and counts.
     pub fn stats(&self) -> BuildStats {
         let mut stats = BuildStats {
             instances: self.instances.len() as u64,
-            nodes: self.top.len() as u64,
-            bytes: (size_of_val(self.top.pairs.as_slice())
-                + size_of_val(self.order.as_slice())
-                + size_of_val(self.geometries.as_slice())
-                + size_of_val(self.instances.as_slice())) as u64,
+            bytes: (size_of_val(self.geometries.as_slice()) + size_of_val(self.instances.as_slice())) as u64,
             ..BuildStats::default()
         };
-        let mut below = 0;
         for geometry in &self.geometries {
-            let (triangles, boxes) = geometry.counts();
+            let (triangles, items) = geometry.counts();
             stats.triangles += triangles;
-            stats.user_primitives += boxes;
-            stats.nodes += geometry.tree.len() as u64;
+            stats.user_primitives += items;
             stats.bytes += geometry.bytes() as u64;
-            below = below.max(geometry.tree.depth);
         }
-        stats.bytes += self.instances.iter().map(|i| i.pose.bytes() as u64).sum::<u64>();
-        stats.max_depth = self.top.depth + below;
+        let own = self.geometries.iter().filter_map(|g| Some(g.forest.as_ref()?.depth())).max();
+        let movers = self.movers.as_ref();
+        stats.nodes = self.trees().map(|(_, _, tree)| u64::from(tree.nodes)).sum();
+        stats.max_depth = self.scene.depth().max(movers.map_or(0, |m| m.forest.depth())) + own.unwrap_or(0);
+        let boxes = movers.map_or(0, |m| {
+            m.forest.bytes() + m.boxes.iter().map(|b| size_of_val(b.as_slice())).sum::<usize>()
+        });
+        let poses: usize = self.instances.iter().map(|i| i.pose.bytes()).sum();
+        stats.bytes += (self.scene.bytes() + self.owners.bytes() + boxes + poses) as u64;
         stats
     }
 
     /// The box of a node named by a probe; `None` if there is no such node. Names run from 0 to `stats().nodes - 1`.
     pub fn node_bounds(&self, bvh_node: u32) -> Option<NodeBounds> {
-        let inside = |tree: &Tree| {
-            ((tree.base as usize)..tree.base as usize + tree.len()).contains(&(bvh_node as usize))
+        let inside = |tree: &Tree| (tree.base..tree.base + tree.nodes).contains(&bvh_node);
+        let (geometry, forest, tree) = self.trees().find(|(_, _, tree)| inside(tree))?;
+        let index = bvh_node - tree.base;
+        let (bounds, leaf_items) = match (&forest.trees, self.registers.width()) {
+            (Trees::Still(_), 16) => tree.node_bounds::<Node<16>>(index),
+            (Trees::Still(_), _) => tree.node_bounds::<Node<8>>(index),
+            (Trees::Moving { .. }, 16) => tree.node_bounds::<MovingNode<16>>(index),
+            (Trees::Moving { .. }, _) => tree.node_bounds::<MovingNode<8>>(index),
         };
-        let (tree, geometry) = if inside(&self.top) {
-            (&self.top, None)
-        } else {
-            let i = self.geometries.iter().position(|g| inside(&g.tree))?;
-            (&self.geometries[i].tree, Some(GeometryId(i as u32)))
-        };
-        let node = tree.node(bvh_node - tree.base);
-        Some(NodeBounds { bounds: node.bounds(), geometry, leaf_items: node.count })
+        Some(NodeBounds { bounds, geometry, leaf_items })
     }
 
     /// Which geometry an instance places.
@@ -173,13 +204,5 @@ impl Accel {
     /// If there is no such instance.
     pub fn instance_transform(&self, instance: u32, time: f32) -> Transform {
         self.instances[instance as usize].pose.at(time).unwrap_or(Transform::IDENTITY)
-    }
-
-    /// The vertices of a triangle at `time`, in the instance's object space; `None` if the geometry is not a mesh.
-    ///
-    /// # Panics
-    /// If there is no such instance or triangle.
-    pub fn triangle(&self, instance: u32, prim: u32, time: f32) -> Option<[Point3; 3]> {
-        self.geometries[self.instance_geometry(instance).index()].vertices(prim, time)
     }
 }

@@ -66,6 +66,22 @@ pub enum BuildError {
         /// The number inside the id.
         geometry: u32,
     },
+    /// The processor lacks what was asked for.
+    #[error("this processor has no {isa} instructions; choose others, or none to take the best there are")]
+    IsaMissing {
+        /// As `Isa::name` says it.
+        isa: &'static str,
+    },
+    /// A tree has more rows than links can name.
+    #[error(
+        "the tree over {primitives} primitives takes more than {gigabytes} GiB; split the mesh into several geometries"
+    )]
+    TreeTooLarge {
+        /// Primitives of the tree.
+        primitives: usize,
+        /// The limit.
+        gigabytes: usize,
+    },
     /// Ids would not fit.
     #[error("{count} {what} are more than the {limit} that ids can count; split the scene", limit = u32::MAX / 2)]
     TooMany {

@@ -1,4 +1,5 @@
 //! What a query returns.
+use durer_core::math::Vector3;
 
 /// The nearest meeting of a ray and the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,31 +8,17 @@ pub struct Hit {
     pub t: f32,
     /// Which instance, in the order they were added.
     pub instance: u32,
-    /// Which triangle or box of the instance's geometry, in the order they were given.
+    /// Which triangle, quad, box, curve segment or point of the instance's geometry, in the order they were given.
     pub prim: u32,
-    /// Triangles: weight of vertex 1. User geometry: whatever its callback returned.
+    /// Triangles: weight of vertex 1. Quads: along the edge from vertex 0 to 1. Curves: along the segment. User geometry:
+    /// whatever its callback returned.
     pub u: f32,
-    /// Triangles: weight of vertex 2; vertex 0 has `1 - u - v`. User geometry: whatever its callback returned.
+    /// Triangles: weight of vertex 2; vertex 0 has `1 - u - v`. Quads: along the edge from vertex 0 to 3. Curves: across.
+    /// User geometry: whatever its callback returned.
     pub v: f32,
-}
-
-impl Hit {
-    /// "Nothing yet": a hit at `t_max` with the largest ids, so that any real one wins the tie.
-    pub(crate) fn nothing(t_max: f32) -> Self {
-        Self { t: t_max, instance: u32::MAX, prim: u32::MAX, u: 0.0, v: 0.0 }
-    }
-    /// The hit, unless it is still `nothing`.
-    pub(crate) fn found(self) -> Option<Self> {
-        (self.instance != u32::MAX).then_some(self)
-    }
-    /// Replaces `self` by `other` if that is nearer, or as near with smaller ids.
-    #[inline]
-    pub(crate) fn offer(&mut self, other: Self) {
-        let smaller = (other.instance, other.prim) < (self.instance, self.prim);
-        if other.t < self.t || (other.t == self.t && smaller) {
-            *self = other;
-        }
-    }
+    /// Normal of the surface in the instance's object space, not of unit length, on the side from which vertices are seen
+    /// counter-clockwise. Zero for user geometry.
+    pub n_g: Vector3,
 }
 
 /// What a shape's own intersection routine returns.

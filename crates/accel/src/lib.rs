@@ -12,17 +12,22 @@
 //!   `t` is raised to it. Box arithmetic is monotone, so no box around the primitive can be entered later than its
 //!   hit, and culling can never change a result. That is what makes both engines equal, not luck with rounding.
 //! - A ray with a zero or non-finite direction, a non-finite origin or `t_min > t_max` misses everything.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod accel;
 mod build;
 mod error;
 mod geometry;
-#[allow(dead_code, unreachable_pub)]
 mod grow;
 mod hit;
+mod isa;
+mod lanes;
+mod layout;
+mod owners;
 mod placement;
 mod probe;
+mod query;
+mod simd;
 mod slab;
 mod space;
 mod stats;
@@ -32,11 +37,14 @@ pub mod triangle;
 mod user;
 
 pub use accel::{Accel, NodeBounds};
-pub use build::{AccelBuilder, BuildOptions, Engine};
+pub use build::{AccelBuilder, BuildOptions, Engine, Precision, Quads, Triangles, Visibility};
 pub use error::BuildError;
-pub use geometry::{GeometryId, Triangles};
+pub use geometry::GeometryId;
+pub use grow::Preset;
 pub use hit::{Hit, PrimitiveHit};
+pub use isa::Isa;
 pub use placement::Placement;
 pub use probe::{NoTraversalProbe, TraversalCounts, TraversalProbe};
+pub use query::Query;
 pub use stats::BuildStats;
 pub use user::{NoUserGeometry, UserGeometry};

@@ -99,9 +99,6 @@ impl Pose {
         }
     }
 
-    pub(crate) fn is_identity(&self) -> bool {
-        matches!(self, Self::Identity)
-    }
     /// `render_from_object` at `time` seconds; `None` stands for the identity.
     pub(crate) fn at(&self, time: f32) -> Option<Transform> {
         match self {
@@ -112,7 +109,11 @@ impl Pose {
     }
     /// `ray` in object space; `None` stands for the identity.
     pub(crate) fn object_ray(&self, ray: &Ray) -> Option<Ray> {
-        self.at(ray.time).map(|m| m.inverse().ray(ray))
+        match self {
+            Self::Identity => None,
+            Self::Still(m) => Some(m.ray_back(ray)),
+            Self::Moving(_) => self.at(ray.time).map(|m| m.ray_back(ray)),
+        }
     }
     /// Box around everything an object inside `b` sweeps.
     pub(crate) fn bounds(&self, b: &Bounds3) -> Bounds3 {

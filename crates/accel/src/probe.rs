@@ -4,7 +4,9 @@
 pub trait TraversalProbe {
     /// Says which ray an event belongs to; `()` for observers that do not ask.
     type Id: Copy + Default;
-    /// The ray entered a node of a tree. `bvh_node` is unique in its `Accel`: see `Accel::node_bounds`.
+    /// False for observers that look away: then rays take the path without any events.
+    const ACTIVE: bool = true;
+    /// The ray entered a node of a tree, or began there. `bvh_node` is unique in its `Accel`: see `Accel::node_bounds`.
     #[inline]
     fn node(&mut self, _id: Self::Id, _bvh_node: u32) {}
     /// The ray is tested against a primitive.
@@ -18,6 +20,7 @@ pub struct NoTraversalProbe;
 
 impl TraversalProbe for NoTraversalProbe {
     type Id = ();
+    const ACTIVE: bool = false;
 }
 
 /// Sums over all rays observed.
@@ -36,5 +39,54 @@ impl TraversalProbe for TraversalCounts {
     }
     fn primitive(&mut self, _: (), _: u32, _: u32) {
         self.primitives += 1;
+    }
+}
+
+/// What traversal tells: a probe behind a pointer, or nobody.
+pub(crate) trait Watch {
+    const ACTIVE: bool;
+    fn node(&mut self, bvh_node: u32);
+    fn primitive(&mut self, instance: u32, prim: u32);
+}
+
+/// Nobody watches.
+pub(crate) struct Unwatched;
+
+impl Watch for Unwatched {
+    const ACTIVE: bool = false;
+    #[inline(always)]
+    fn node(&mut self, _: u32) {}
+    #[inline(always)]
+    fn primitive(&mut self, _: u32, _: u32) {}
+}
+
+/// A probe and the ray it is told about, without their types.
+pub(crate) trait Sink {
+    fn node(&mut self, bvh_node: u32);
+    fn primitive(&mut self, instance: u32, prim: u32);
+}
+
+/// A probe and the ray it is told about.
+pub(crate) struct Told<'a, P: TraversalProbe> {
+    pub(crate) probe: &'a mut P,
+    pub(crate) id: P::Id,
+}
+
+impl<P: TraversalProbe> Sink for Told<'_, P> {
+    fn node(&mut self, bvh_node: u32) {
+        self.probe.node(self.id, bvh_node);
+    }
+    fn primitive(&mut self, instance: u32, prim: u32) {
+        self.probe.primitive(self.id, instance, prim);
+    }
+}
+
+impl Watch for &mut dyn Sink {
+    const ACTIVE: bool = true;
+    fn node(&mut self, bvh_node: u32) {
+        Sink::node(&mut **self, bvh_node);
+    }
+    fn primitive(&mut self, instance: u32, prim: u32) {
+        Sink::primitive(&mut **self, instance, prim);
     }
 }

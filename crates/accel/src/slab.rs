@@ -1,88 +1,136 @@
-//! Ray against box: the slab test, rounded so that it misses nothing and is monotone in the box.
+//! Ray against box: where it enters and leaves, rounded so that no box around a hit is ever missed.
 //!
-//! A plane at `x` is met at `(x - o) * (1 / d)`. Each step of that is a monotone function of `x` in floating point, so a
-//! box inside another is never entered earlier nor left later, bit for bit. Instead of bounding the error of every
-//! result (Ize 2013, "Robust BVH Ray Traversal") the origin is moved once per ray, one way for lower and the other way
-//! for upper planes, far enough to cover both these roundings and those of the shear in the triangle test (Woop,
-//! Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", section 4, does the same).
-use durer_core::math::{Bounds3, Ray, error::gamma};
-use wide::f32x4;
+//! A plane at `x` is met at `(x - o) / d`, computed as one fused `x r + c` with `r = 1 / d`, `c = -o r`. Three things can
+//! go wrong by rounding, and each has its slack:
+//! - The triangle test projects each vertex with an error of up to 6 u times its distance, u = 2^-24: along the ray this is
+//!   a sideways error that grows with `t`. So a ray may be anywhere within `d ± 16 u |d|` of where it is: the plane by which
+//!   it enters is met with the larger of both, that by which it leaves with the smaller (Woop, Benthin, Wald 2013,
+//!   "Watertight Ray/Triangle Intersection", section 4, moves the origin instead, by the size of the whole scene).
+//! - The rest of that error grows with the triangle: boxes are built 16 u larger than what they hold, see [`grown`].
+//! - `o r` is rounded: 4 u |o r| either way.
+use durer_core::math::{Bounds3, Ray};
 
-/// A ray's constants for testing boxes inside a known region.
+/// Half the distance between 1 and the next number.
+const U: f32 = f32::EPSILON / 2.0;
+/// Slack of directions and boxes, twice what the triangle test needs and more.
+const SLACK: f32 = 16.0 * U;
+/// Slack of what the origin does to a sum.
+const ORIGIN_SLACK: f32 = 4.0 * U;
+/// Smallest component of a direction compared to its largest: below it the ray moves along the axis by nothing.
+const FLOOR: f32 = 1e-18;
+/// Products of reciprocals and coordinates stay below the largest number.
+const PRODUCT_MAX: f32 = 1e37;
+
+/// A ray's constants for meeting planes, by axis: `t = plane * r + c`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
-    /// Origin to subtract from lower planes: moved up.
-    o_lower: [f32; 3],
-    /// Origin to subtract from upper planes: moved down.
-    o_upper: [f32; 3],
-    /// Reciprocal direction, never infinite.
-    inverse: [f32; 3],
+    /// For the planes by which the ray enters.
+    pub(crate) near_r: [f32; 3],
+    pub(crate) near_c: [f32; 3],
+    /// For those by which it leaves.
+    pub(crate) far_r: [f32; 3],
+    pub(crate) far_c: [f32; 3],
+    /// Which plane it enters by: 0 the lower, 1 the upper.
+    pub(crate) near_side: [usize; 3],
+    o: [f32; 3],
+    /// Absolute slack of rays that begin behind their origin.
+    behind: [f32; 3],
+}
+
+impl Slab {
+    /// For boxes inside `region`, whose coordinates are at most this large. `None` for a ray that can hit nothing: a zero
+    /// or non-finite direction or a non-finite origin.
+    #[inline(always)]
+    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, region: f32) -> Option<Self> {
+        let (o, d) = (ray.o.to_array(), ray.d.to_array());
+        let largest = greater(greater(d[0].abs(), d[1].abs()), d[2].abs());
+        // 0 x is 0 only for finite x: one comparison instead of six.
+        let finite = (o[0] * 0.0 + o[1] * 0.0 + o[2] * 0.0) + (d[0] * 0.0 + d[1] * 0.0 + d[2] * 0.0) == 0.0;
+        if !(finite && largest > 0.0 && (1.0 / largest).is_finite()) {
+            return None;
+        }
+        let farthest = greater(greater(greater(o[0].abs(), o[1].abs()), o[2].abs()), region);
+        // Keeps products finite, so that there is no infinity less infinity.
+        let finite_floor = farthest * (1.0 / PRODUCT_MAX);
+        let floor = greater(FLOOR * largest, finite_floor);
+        let slack = if ROBUST { SLACK * largest } else { 0.0 };
+        let origin_slack = if ROBUST { ORIGIN_SLACK } else { 0.0 };
+        let mut slab =
+            Self { near_r: o, near_c: o, far_r: o, far_c: o, near_side: [0; 3], o, behind: [0.0; 3] };
+        for a in 0..3 {
+            let size = d[a].abs();
+            let near = (1.0 / greater(size + slack, floor)).copysign(d[a]);
+            let far = (1.0 / greater(size - slack, floor)).copysign(d[a]);
+            slab.near_r[a] = near;
+            slab.far_r[a] = far;
+            slab.near_c[a] = -(o[a] * near) - origin_slack * (o[a] * near).abs();
+            slab.far_c[a] = -(o[a] * far) + origin_slack * (o[a] * far).abs();
+            slab.near_side[a] = usize::from(d[a].is_sign_negative());
+        }
+        if ray.t_min < 0.0 || finite_floor > SLACK * largest {
+            slab.widen(d, slack, ray.t_min, finite_floor > SLACK * largest);
+        }
+        Some(slab)
+    }
+
+    /// Rays that begin behind their origin, and those so short that coordinates divided by them overflow.
+    #[cold]
+    fn widen(&mut self, d: [f32; 3], slack: f32, t_min: f32, is_short: bool) {
+        for a in 0..3 {
+            if is_short {
+                // Boxes are never left.
+                (self.far_r[a], self.far_c[a]) = (0.0, f32::MAX);
+            }
+            if t_min < 0.0 {
+                // What is relative errs the other way behind the origin; no error there is larger than this.
+                let size = d[a].abs();
+                let behind = if size > 2.0 * slack { 4.0 * slack / size * -t_min } else { f32::MAX / 4.0 };
+                self.behind[a] = behind;
+                self.near_c[a] -= 2.0 * behind;
+                self.far_c[a] += 2.0 * behind;
+            }
+        }
+    }
+
+    /// The stretch inside a box that was [`grown`]; it lies within what any node around the box grown again admits.
+    pub(crate) fn window(&self, b: &Bounds3) -> Window {
+        let sides = [b.min.to_array(), b.max.to_array()];
+        let mut window = Window::ALL;
+        for a in 0..3 {
+            let (near, far) = (sides[self.near_side[a]][a], sides[1 - self.near_side[a]][a]);
+            let entry = near * self.near_r[a] - self.o[a] * self.near_r[a] - self.behind[a];
+            let exit = far * self.far_r[a] - self.o[a] * self.far_r[a] + self.behind[a];
+            window.near = greater(window.near, entry);
+            window.far = lesser(window.far, if self.far_r[a] == 0.0 { f32::MAX } else { exit });
+        }
+        window
+    }
+}
+
+/// A box around `b` by the slack that tests of boxes and triangles need; `extent` is the size of what it holds a part of.
+pub(crate) fn grown(b: &Bounds3, extent: f32) -> Bounds3 {
+    // The last term sees to a box that is a point at the origin.
+    let by = |x: f32| SLACK * extent + 4.0 * U * x.abs() + f32::MIN_POSITIVE;
+    let down = |x: f32| (x - by(x)).max(f32::MIN);
+    let up = |x: f32| (x + by(x)).min(f32::MAX);
+    let (lo, hi) = (b.min.to_array(), b.max.to_array());
+    Bounds3 { min: lo.map(down).into(), max: hi.map(up).into() }
+}
+
+/// The length of the longest edge.
+pub(crate) fn extent(b: &Bounds3) -> f32 {
+    let d = b.diagonal();
+    greater(greater(d.x, d.y), d.z).min(f32::MAX)
 }
 
 /// `min` and `max` in one instruction each; no argument is ever NaN.
 #[inline(always)]
-fn lesser(a: f32, b: f32) -> f32 {
+pub(crate) fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 #[inline(always)]
 pub(crate) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
-}
-
-/// Three coordinates in a vector; the fourth lane repeats the third.
-#[inline(always)]
-fn lanes([x, y, z]: [f32; 3]) -> f32x4 {
-    f32x4::new([x, y, z, z])
-}
-
-impl Slab {
-    /// For boxes inside `region` (which may be empty). `None` for a ray that can hit nothing: a zero or non-finite
-    /// direction or a non-finite origin.
-    pub(crate) fn new(ray: &Ray, region: &Bounds3) -> Option<Self> {
-        let (o, d) = (lanes(ray.o.to_array()), lanes(ray.d.to_array()));
-        let largest = greater(greater(ray.d.x.abs(), ray.d.y.abs()), ray.d.z.abs());
-        // 0 x is 0 only for finite x: one comparison instead of six.
-        let finite = (o * 0.0 + d * 0.0).simd_eq(f32x4::ZERO).all();
-        if !(finite && largest > 0.0 && (1.0 / largest).is_finite()) {
-            return None;
-        }
-        // A direction this much smaller than the largest moves the ray by less than the padding within the region;
-        // the floor keeps products finite, so there is no 0 * infinity.
-        let floor = 1e-18 * largest;
-        let magnitude = d.abs().fast_max(f32x4::splat(floor)).copysign(d);
-        let most = f32x4::splat(f32::MAX);
-        let inverse = (f32x4::ONE / magnitude).fast_min(most).fast_max(-most);
-        let (below, above) = (lanes(region.min.to_array()) - o, lanes(region.max.to_array()) - o);
-        let reach = below.abs().fast_max(above.abs());
-        // An empty region has no reach.
-        let reach = reach.simd_le(most) & reach;
-        let along = reach.to_array()[ray.d.max_axis()];
-        // 3 roundings here, 3 in the shear of either triangle test, doubled; then that of moving the origin itself.
-        let pad = (reach + along) * gamma(13) + (o.abs() * f32::EPSILON + f32::MIN_POSITIVE);
-        let three = |v: f32x4| {
-            let [x, y, z, _] = v.to_array();
-            [x, y, z]
-        };
-        Some(Self { o_lower: three(o + pad), o_upper: three(o - pad), inverse: three(inverse) })
-    }
-
-    /// Where the ray enters and leaves a box; it misses if the first is greater.
-    #[inline(always)]
-    pub(crate) fn window(&self, min: &[f32; 3], max: &[f32; 3]) -> Window {
-        let lower = |a: usize| (min[a] - self.o_lower[a]) * self.inverse[a];
-        let upper = |a: usize| (max[a] - self.o_upper[a]) * self.inverse[a];
-        let (x0, x1) = (lower(0), upper(0));
-        let (y0, y1) = (lower(1), upper(1));
-        let (z0, z1) = (lower(2), upper(2));
-        Window {
-            near: greater(greater(lesser(x0, x1), lesser(y0, y1)), lesser(z0, z1)),
-            far: lesser(lesser(greater(x0, x1), greater(y0, y1)), greater(z0, z1)),
-        }
-    }
-    /// The same for a box as the rest of the renderer knows it.
-    pub(crate) fn window_of(&self, b: &Bounds3) -> Window {
-        self.window(&b.min.to_array(), &b.max.to_array())
-    }
 }
 
 /// The stretch of a ray inside a box.
@@ -111,11 +159,11 @@ mod tests {
     use durer_core::math::{Point3, Vector3};
 
     fn unit() -> Bounds3 {
-        Bounds3::new(Point3::ZERO, Point3::splat(1.0))
+        grown(&Bounds3::new(Point3::ZERO, Point3::splat(1.0)), 1.0)
     }
     fn admits(o: [f32; 3], d: [f32; 3]) -> bool {
-        let slab = Slab::new(&Ray::new(o.into(), d.into()), &unit()).expect("valid ray");
-        slab.window_of(&unit()).admits(0.0, f32::INFINITY)
+        let slab = Slab::new::<true>(&Ray::new(o.into(), d.into()), 1.0).expect("valid ray");
+        slab.window(&unit()).admits(0.0, f32::INFINITY)
     }
 
     #[test]
@@ -131,18 +179,17 @@ mod tests {
     #[test]
     fn impossible_rays_are_refused() {
         for d in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0], [1e-44, 0.0, 0.0]] {
-            assert!(Slab::new(&Ray::new(Point3::ZERO, d.into()), &unit()).is_none(), "{d:?}");
+            assert!(Slab::new::<true>(&Ray::new(Point3::ZERO, d.into()), 1.0).is_none(), "{d:?}");
         }
         let far = Ray::new(Point3::splat(f32::INFINITY), Vector3::splat(1.0));
-        assert!(Slab::new(&far, &unit()).is_none());
+        assert!(Slab::new::<true>(&far, 1.0).is_none());
     }
 
     #[test]
-    fn all_of_space_is_always_entered() {
-        for d in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.3, -0.2, 0.0]] {
-            let slab =
-                Slab::new(&Ray::new(Point3::splat(3.0), d.into()), &Bounds3::EMPTY).expect("valid ray");
-            assert!(slab.window_of(&Bounds3::UNBOUNDED).admits(0.0, 0.0));
-        }
+    fn huge_coordinates_give_numbers() {
+        let ray = Ray::new(Point3::splat(1e30), Vector3::new(0.0, 1.0, -0.0));
+        let slab = Slab::new::<true>(&ray, 1e32).expect("valid ray");
+        let window = slab.window(&grown(&Bounds3::new(Point3::splat(-1e32), Point3::splat(1e32)), 2e32));
+        assert!(window.admits(0.0, f32::MAX), "{window:?}");
     }
 }

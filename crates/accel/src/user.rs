@@ -21,6 +21,7 @@ pub trait UserGeometry {
     }
     /// Whether a hit, on a triangle or a shape, counts: false in the holes of a cut-out texture. The ray goes on through
     /// what it is refused, and meets other things at the same `t`. Asked only if [`UserGeometry::FILTERS`].
+    /// [`Hit::n_g`] is not known yet and zero.
     fn accepts(&self, hit: &Hit) -> bool {
         let _ = hit;
         true
@@ -34,5 +35,24 @@ pub struct NoUserGeometry;
 impl UserGeometry for NoUserGeometry {
     fn intersect(&self, _: u32, _: u32, _: &Ray, _: f32) -> Option<PrimitiveHit> {
         None
+    }
+}
+
+/// The same behind a pointer: traversal is compiled once, not for every caller.
+pub(crate) trait Callback {
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit>;
+    fn occludes(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> bool;
+    fn accepts(&self, hit: &Hit) -> bool;
+}
+
+impl<U: UserGeometry> Callback for U {
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
+        UserGeometry::intersect(self, instance, prim, ray, t_max)
+    }
+    fn occludes(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> bool {
+        UserGeometry::occludes(self, instance, prim, ray, t_max)
+    }
+    fn accepts(&self, hit: &Hit) -> bool {
+        UserGeometry::accepts(self, hit)
     }
 }

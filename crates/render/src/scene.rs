@@ -18,10 +18,7 @@ use durer_model::{
 };
 use durer_scene::Mesh;
 
-use crate::{
-    SampleCx,
-    probe::{NoProbe, Probe},
-};
+use crate::{SampleCx, probe::Probe};
 
 /// A thing with a name and a material: what a hit belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -181,23 +178,23 @@ impl Scene {
     /// The nearest hit that is no hole.
     pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
         match self.has_holes || self.has_backs {
-            true => self.accel.closest(ray, &Holed { cx, ray, culls: true }, probe, id),
-            false => self.accel.closest(ray, self, probe, id),
+            true => self.accel.query(ray).user(&Holed { cx, ray, culls: true }).probe(probe, id).closest(),
+            false => self.accel.query(ray).user(self).probe(probe, id).closest(),
         }
     }
 
     /// True if anything that is no hole lies on the ray.
     pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
         match self.has_holes {
-            true => self.accel.any(ray, &Holed { cx, ray, culls: false }, probe, id),
-            false => self.accel.any(ray, self, probe, id),
+            true => self.accel.query(ray).user(&Holed { cx, ray, culls: false }).probe(probe, id).any(),
+            false => self.accel.query(ray).user(self).probe(probe, id).any(),
         }
     }
 
     /// The nearest object that casts a shadow on the ray; unwatched.
     pub fn blocker(&self, cx: &SampleCx<'_>, ray: &Ray) -> Option<Id<Object>> {
         let holed = Holed { cx, ray, culls: false };
-        self.accel.closest(ray, &holed, &mut NoProbe, ()).map(|hit| self.resolve(&hit).0)
+        self.accel.query(ray).user(&holed).closest().map(|hit| self.resolve(&hit).0)
     }
 
     /// True if the ray met something from behind. The winding of triangles decides, as it does for rasterisers,

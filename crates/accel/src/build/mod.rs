@@ -1,63 +1,67 @@
 //! From geometries and placements to an `Accel`.
-mod sah;
+mod assemble;
+mod emit;
+mod moving;
+mod options;
+mod source;
+mod subject;
+
+use std::borrow::Cow;
 
 use durer_core::math::{Bounds3, Point3};
 
 use crate::{
-    Accel, BuildError, GeometryId, Placement, Triangles, accel::Instance, geometry::Geometry, placement::Pose,
+    Accel, BuildError, GeometryId, Placement,
+    accel::Instance,
+    placement::Pose,
+    slab::{extent, grown},
 };
 
-pub(crate) use sah::grow;
-
-/// How rays find their hits. Both give the same ones, bit for bit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Engine {
-    /// Walk trees of boxes.
-    #[default]
-    Bvh,
-    /// Test every primitive of every instance with every ray, shadow rays too, never stopping early: the lecture's
-    /// loop, whose cost is exactly primitives times rays.
-    BruteForce,
-}
-
-/// Choices of a build.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BuildOptions {
-    /// How rays find their hits.
-    pub engine: Engine,
-    /// Most primitives in a leaf; 0 counts as 1.
-    pub leaf_max: u32,
-    /// Candidate split planes per axis, plus one; clamped to 2..=32.
-    pub bins: u32,
-}
-
-impl Default for BuildOptions {
-    fn default() -> Self {
-        Self { engine: Engine::Bvh, leaf_max: 4, bins: 16 }
-    }
-}
+pub use options::{BuildOptions, Engine, Precision, Visibility};
+use source::Source;
+pub use source::{Quads, Triangles};
+pub(crate) use subject::Stretch;
 
 /// Collects geometries and instances. The order of calls decides the ids and with them ties.
 #[derive(Debug)]
-pub struct AccelBuilder {
+pub struct AccelBuilder<'a> {
     options: BuildOptions,
-    geometries: Vec<Geometry>,
+    sources: Vec<Source<'a>>,
     instances: Vec<Instance>,
 }
 
-impl AccelBuilder {
+impl<'a> AccelBuilder<'a> {
     /// An empty scene.
     pub fn new(options: BuildOptions) -> Self {
-        Self { options, geometries: Vec::new(), instances: Vec::new() }
+        Self { options, sources: Vec::new(), instances: Vec::new() }
     }
 
-    /// Adds a mesh and builds its tree.
+    /// Adds a mesh.
     ///
     /// # Errors
     /// A vertex that is not finite, an index that is out of range, or too many triangles.
     pub fn triangles(&mut self, mesh: Triangles) -> Result<GeometryId, BuildError> {
-        let geometry = Geometry::triangles(&mesh.positions, &mesh.indices, &self.options)?;
-        self.add(geometry)
+        self.add(Source::triangles(Cow::Owned(mesh.positions), Cow::Owned(mesh.indices))?)
+    }
+
+    /// Adds a mesh that stays where it is until the scene is built.
+    ///
+    /// # Errors
+    /// As [`AccelBuilder::triangles`].
+    pub fn borrowed_triangles(
+        &mut self,
+        positions: &'a [Point3],
+        indices: &'a [[u32; 3]],
+    ) -> Result<GeometryId, BuildError> {
+        self.add(Source::triangles(Cow::Borrowed(positions), Cow::Borrowed(indices))?)
+    }
+
+    /// Adds a mesh of quads.
+    ///
+    /// # Errors
+    /// As [`AccelBuilder::triangles`].
+    pub fn quads(&mut self, mesh: Quads) -> Result<GeometryId, BuildError> {
+        self.add(Source::quads(mesh)?)
     }
 
     /// Adds a mesh whose vertices move: `(seconds, positions)` with rising times, each vertex on a straight line between
@@ -65,18 +69,13 @@ impl AccelBuilder {
     ///
     /// # Errors
     /// As [`AccelBuilder::triangles`]; keys of different lengths or whose times do not rise.
-    pub fn keyed_triangles<'a>(
+    pub fn keyed_triangles(
         &mut self,
-        indices: &[[u32; 3]],
+        indices: &'a [[u32; 3]],
         keys: impl IntoIterator<Item = (f32, &'a [Point3])>,
     ) -> Result<GeometryId, BuildError> {
-        let keys: Vec<_> = keys.into_iter().collect();
-        let geometry = match keys.as_slice() {
-            [] => Geometry::triangles(&[], indices, &self.options)?,
-            [(_, positions)] => Geometry::triangles(positions, indices, &self.options)?,
-            keys => Geometry::moving(indices, keys, &self.options)?,
-        };
-        self.add(geometry)
+        let keys = keys.into_iter().map(|(time, positions)| (time, Cow::Borrowed(positions)));
+        self.add(Source::keyed(Cow::Borrowed(indices), keys.collect())?)
     }
 
     /// Adds shapes known by their boxes only; rays that may meet one are handed to the `UserGeometry` of the query.
@@ -85,37 +84,59 @@ impl AccelBuilder {
     /// # Errors
     /// A box that is NaN or has `min > max`, or too many boxes.
     pub fn user(&mut self, bounds: Vec<Bounds3>) -> Result<GeometryId, BuildError> {
-        let geometry = Geometry::boxes(&bounds, &self.options)?;
-        self.add(geometry)
+        self.add(Source::boxes(bounds)?)
     }
 
-    fn add(&mut self, geometry: Geometry) -> Result<GeometryId, BuildError> {
-        let id = BuildError::check_count(self.geometries.len(), "geometries")?;
-        self.geometries.push(geometry);
+    fn add(&mut self, source: Source<'a>) -> Result<GeometryId, BuildError> {
+        let id = BuildError::check_count(self.sources.len(), "geometries")?;
+        self.sources.push(source);
         Ok(GeometryId(id))
     }
 
-    /// Places a geometry; returns the instance's index. A geometry may be placed any number of times, or never.
+    /// Places a geometry where all rays see it; returns the instance's index. A geometry may be placed any number of
+    /// times, or never.
     ///
     /// # Errors
     /// A geometry of another builder, a transform without inverse, motion keys whose times do not rise, or too many
     /// instances.
     pub fn instance(&mut self, geometry: GeometryId, placement: Placement) -> Result<u32, BuildError> {
+        self.instance_seen(geometry, placement, Visibility::default())
+    }
+
+    /// Places a geometry for some rays.
+    ///
+    /// # Errors
+    /// As [`AccelBuilder::instance`].
+    pub fn instance_seen(
+        &mut self,
+        geometry: GeometryId,
+        placement: Placement,
+        seen: Visibility,
+    ) -> Result<u32, BuildError> {
         let index = BuildError::check_count(self.instances.len(), "instances")?;
-        let Some(placed) = self.geometries.get(geometry.index()) else {
+        let Some(source) = self.sources.get(geometry.index()) else {
             return Err(BuildError::GeometryUnknown { geometry: geometry.0 });
         };
         let pose = Pose::new(placement, self.instances.len())?;
-        let bounds = pose.bounds(&placed.bounds);
-        let finite = Some(pose.bounds(&placed.finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
-        let is_bounded = bounds.is_finite();
-        self.instances.push(Instance { geometry, pose, bounds, is_bounded, finite });
+        self.instances.push(Instance::new(geometry, pose, source.bounds(), seen));
         Ok(index)
     }
 
-    /// Builds the tree of instances and freezes the scene.
-    pub fn build(self) -> Accel {
-        let (top, order) = grow(self.instances.iter().map(|i| i.bounds), &self.options);
-        Accel::assemble(self.options.engine, self.geometries, self.instances, (top, order))
+    /// Builds all trees and freezes the scene.
+    ///
+    /// # Errors
+    /// Instructions that this processor lacks, or a tree larger than links can reach.
+    pub fn build(self) -> Result<Accel, BuildError> {
+        assemble::assemble(&self.options, &self.sources, self.instances)
+    }
+}
+
+impl Instance {
+    fn new(geometry: GeometryId, pose: Pose, [all, finite]: [Bounds3; 2], seen: Visibility) -> Self {
+        let bounds = pose.bounds(&all);
+        let finite = Some(pose.bounds(&finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
+        let is_bounded = bounds.is_finite();
+        let bounds = if is_bounded { grown(&bounds, extent(&bounds)) } else { bounds };
+        Self { geometry, mover: Self::STANDS, seen, is_bounded, bounds, finite, pose }
     }
 }

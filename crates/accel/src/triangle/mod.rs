@@ -8,41 +8,70 @@
 //!
 //! Both sides count. The lecture's own test is [`cramer`].
 mod cramer;
+mod lanes;
 
 use durer_core::math::{Point3, Ray};
 
+use crate::layout::Axis;
+
 pub use cramer::cramer;
+pub(crate) use lanes::{Found, Reach, packet};
+
+/// Directions smaller than this times the largest component move a ray along no axis: boxes cannot exclude it there.
+const HARDLY: f32 = 1.0 / (1 << 20) as f32;
 
 /// A ray's constants for testing triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct Shear {
-    o: Point3,
-    /// Axis along which the direction is largest.
-    axis: usize,
-    /// Shear along the next axis, the one after it, and scale of the largest.
+    /// Origin, by `axes`.
+    o: [f32; 3],
+    /// The last is the axis along which the direction is largest.
+    axes: [Axis; 3],
+    /// Shear along the first and second axis, scale of the last.
     x: f32,
     y: f32,
     z: f32,
+    /// `1 / d` along the first and second axis.
+    reciprocal: [f32; 2],
+    /// 0, or infinity for an axis along which the ray hardly moves.
+    slack: [f32; 2],
 }
 
 impl Shear {
     /// `None` for a zero or non-finite direction, or one so short that its reciprocal is not finite.
+    #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
-        let axis = ray.d.max_axis();
-        let z = 1.0 / ray.d[axis];
-        if !(z.is_finite() && ray.d.is_finite()) {
+        let last = ray.d.max_axis();
+        let (o, d) = (ray.o.to_array(), ray.d.to_array());
+        let by = |v: [f32; 3]| match last {
+            0 => [v[1], v[2], v[0]],
+            1 => [v[2], v[0], v[1]],
+            _ => v,
+        };
+        let d = by(d);
+        let z = 1.0 / d[2];
+        // 0 x is 0 only for finite x.
+        if !(z.is_finite() && (d[0] + d[1] + d[2]) * 0.0 == 0.0) {
             return None;
         }
-        let ratio = |a: usize| ray.d[a % 3] / ray.d[axis];
-        Some(Self { o: ray.o, axis, x: ratio(axis + 1), y: ratio(axis + 2), z })
+        let hardly = HARDLY * d[2].abs();
+        let moves = |i: usize| d[i].abs() >= hardly;
+        let reciprocal = |i: usize| if moves(i) { 1.0 / d[i] } else { 0.0 };
+        let slack = |i: usize| if moves(i) { 0.0 } else { f32::INFINITY };
+        Some(Self {
+            o: by(o),
+            axes: [Axis::new(last + 1), Axis::new(last + 2), Axis::new(last)],
+            x: d[0] / d[2],
+            y: d[1] / d[2],
+            z,
+            reciprocal: [reciprocal(0), reciprocal(1)],
+            slack: [slack(0), slack(1)],
+        })
     }
 
-    /// `p` with the ray as z axis; z is left in units of length.
-    #[inline(always)]
-    fn project<const AXIS: usize>(&self, p: &Point3) -> [f32; 3] {
-        let q = [p.x - self.o.x, p.y - self.o.y, p.z - self.o.z];
-        let z = q[AXIS];
-        [q[(AXIS + 1) % 3] - self.x * z, q[(AXIS + 2) % 3] - self.y * z, z]
+    /// A point relative to the origin, by `axes`.
+    fn relative(&self, p: &Point3) -> [f32; 3] {
+        std::array::from_fn(|i| p[self.axes[i] as usize] - self.o[i])
     }
 }
 
@@ -57,51 +86,20 @@ pub struct TriangleHit {
 
 /// Where the ray of `shear` meets the triangle, if at some `t` in `[t_min, t_max]` that is larger in magnitude than its
 /// own rounding error bound. Degenerate triangles and those seen exactly edge-on are never hit.
-#[inline]
 pub fn intersect(shear: &Shear, triangle: &[Point3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
-    match shear.axis {
-        0 => along::<0>(shear, triangle, t_min, t_max),
-        1 => along::<1>(shear, triangle, t_min, t_max),
-        _ => along::<2>(shear, triangle, t_min, t_max),
-    }
-}
-
-#[inline(always)]
-fn along<const AXIS: usize>(
-    s: &Shear,
-    triangle: &[Point3; 3],
-    t_min: f32,
-    t_max: f32,
-) -> Option<TriangleHit> {
-    let [a, b, c] = triangle;
-    let (a, b, c) = (s.project::<AXIS>(a), s.project::<AXIS>(b), s.project::<AXIS>(c));
-    let e0 = b[0] * c[1] - b[1] * c[0];
-    let e1 = c[0] * a[1] - c[1] * a[0];
-    let e2 = a[0] * b[1] - a[1] * b[0];
-    // A sign that is not 0 is right; two different ones settle it whatever the third is.
-    if (e0 < 0.0 || e1 < 0.0 || e2 < 0.0) && (e0 > 0.0 || e1 > 0.0 || e2 > 0.0) {
-        return None;
-    }
-    let reciprocal = 1.0 / (e0 + e1 + e2);
-    let ordinary = e0 != 0.0 && e1 != 0.0 && e2 != 0.0 && reciprocal.is_finite() && reciprocal != 0.0;
-    if !ordinary {
-        return exact(s, [a, b, c], t_min, t_max);
-    }
-    let weights = [e0 * reciprocal, e1 * reciprocal, e2 * reciprocal];
-    let t = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) * s.z;
-    if !(t_min <= t && t <= t_max) {
-        return None;
-    }
-    let largest = e0.abs().max(e1.abs()).max(e2.abs());
-    let bound = t_error(s, &[a, b, c], f64::from(largest), f64::from(reciprocal));
-    (f64::from(t.abs()) > bound).then_some(TriangleHit { t, weights })
+    let reach = Reach { t_min, t_max, floor: f32::NEG_INFINITY };
+    let mut found = Found { t: [0.0], u: [0.0], v: [0.0] };
+    let corner = |vertex: usize, axis: usize| triangle[vertex][shear.axes[axis] as usize];
+    let hit = lanes::test::<f32, true>((), shear, &reach, corner, |_| *triangle, &mut found);
+    let (u, v) = (found.u[0], found.v[0]);
+    (hit != 0).then_some(TriangleHit { t: found.t[0], weights: [1.0 - u - v, u, v] })
 }
 
 /// The same in f64, from the projected vertices: the signs of the edge functions are exact.
-#[cold]
-#[inline(never)]
-fn exact(s: &Shear, vertices: [[f32; 3]; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
-    let [a, b, c] = vertices.map(|v| v.map(f64::from));
+fn exact(shear: &Shear, triangle: &[Point3; 3], reach: &Reach) -> Option<TriangleHit> {
+    let relative = triangle.each_ref().map(|p| shear.relative(p));
+    let projected = relative.map(|[x, y, z]| [x - shear.x * z, y - shear.y * z, z].map(f64::from));
+    let [a, b, c] = projected;
     let e0 = b[0] * c[1] - b[1] * c[0];
     let e1 = c[0] * a[1] - c[1] * a[0];
     let e2 = a[0] * b[1] - a[1] * b[0];
@@ -113,24 +111,31 @@ fn exact(s: &Shear, vertices: [[f32; 3]; 3], t_min: f32, t_max: f32) -> Option<T
         return None;
     }
     let weights = [e0 * reciprocal, e1 * reciprocal, e2 * reciprocal];
-    let t = ((weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) * f64::from(s.z)) as f32;
-    if !(t.is_finite() && t_min <= t && t <= t_max) {
+    let scale = f64::from(shear.z);
+    let t = ((weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) * scale) as f32;
+    let within = |t: f32| t.is_finite() && reach.t_min <= t && t <= reach.t_max;
+    if !within(t) || f64::from(t.abs()) <= error_bound(&projected, reciprocal, scale) {
         return None;
     }
-    let largest = e0.abs().max(e1.abs()).max(e2.abs());
-    let bound = t_error(s, &vertices, largest, reciprocal);
-    (f64::from(t.abs()) > bound).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
+    let [entry, exit] = window(shear, &relative);
+    let t = t.max(entry).max(reach.floor);
+    (t <= reach.t_max && exit >= reach.t_min).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
 }
 
-/// Bound on the absolute error of `t` (Physically Based Rendering, 4th edition, section 6.8.7): the roundings of the
-/// projection carried through edge functions and weighted mean. f64 only so that it cannot overflow.
-fn t_error(s: &Shear, vertices: &[[f32; 3]; 3], largest_edge: f64, reciprocal: f64) -> f64 {
+/// As `lanes::error_bound`, in f64, so that it cannot overflow.
+fn error_bound(projected: &[[f64; 3]; 3], reciprocal: f64, scale: f64) -> f64 {
     let g = |n| f64::from(durer_core::math::error::gamma(n));
-    let reach =
-        |i: usize| f64::from(vertices[0][i].abs().max(vertices[1][i].abs()).max(vertices[2][i].abs()));
-    let (x, y, z) = (reach(0), reach(1), reach(2));
-    let (dx, dy, dz) = (g(5) * (x + z), g(5) * (y + z), g(3) * z);
-    let d_edge = 2.0 * (g(2) * x * y + dy * x + dx * y);
-    let d_t = 3.0 * (g(3) * largest_edge * z + d_edge * z + dz * largest_edge);
-    d_t * (reciprocal * f64::from(s.z)).abs()
+    let [x, y, z] = std::array::from_fn(|axis| projected.iter().map(|v| v[axis].abs()).fold(0.0, f64::max));
+    6.0 * z * (g(1) + (g(12) * x * y + g(5) * z * (x + y)) * reciprocal.abs()) * scale.abs()
+}
+
+/// As `lanes::window`.
+fn window(shear: &Shear, relative: &[[f32; 3]; 3]) -> [f32; 2] {
+    let (mut entry, mut exit) = (f32::MIN, f32::MAX);
+    for axis in 0..2 {
+        let ts = relative.map(|v| v[axis] * shear.reciprocal[axis]);
+        entry = entry.max(ts.into_iter().fold(f32::INFINITY, f32::min) - shear.slack[axis]);
+        exit = exit.min(ts.into_iter().fold(f32::NEG_INFINITY, f32::max) + shear.slack[axis]);
+    }
+    [entry, exit]
 }

@@ -1,8 +1,5 @@
 //! Meshes whose vertices move: against the same mesh frozen at the ray's moment, and a closed form.
-use durer_accel::{
-    Accel, AccelBuilder, BuildError, BuildOptions, Engine, NoTraversalProbe, NoUserGeometry, Placement,
-    Triangles,
-};
+use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, Engine, Placement, Triangles};
 use durer_core::math::{Point3, Ray, Segment, Vector3};
 
 use crate::corpus::{Random, ray_count};
@@ -15,11 +12,11 @@ fn build(indices: &[[u32; 3]], keys: &Keys, engine: Engine) -> Accel {
     let keys = keys.iter().map(|(time, positions)| (*time, positions.as_slice()));
     let id = builder.keyed_triangles(indices, keys).expect("sound keys");
     builder.instance(id, Placement::Identity).expect("sound placement");
-    builder.build()
+    builder.build().expect("within limits")
 }
 
 fn closest(accel: &Accel, ray: &Ray) -> Option<durer_accel::Hit> {
-    accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ())
+    accel.query(ray).closest()
 }
 
 /// A sphere whose vertices wander.
@@ -52,12 +49,9 @@ fn a_mesh_is_hit_as_it_is_at_the_moment_of_the_ray() {
                 let (hit, expected) = (closest(&tree, &ray), closest(&frozen, &ray));
                 assert_eq!(hit, expected, "{ray:?}");
                 assert_eq!(closest(&brute, &ray), expected, "{ray:?}");
-                let any = tree.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ());
+                let any = tree.query(&ray).any();
                 assert_eq!(any, expected.is_some());
-                if let Some(hit) = hit {
-                    assert_eq!(tree.triangle(0, hit.prim, time), frozen.triangle(0, hit.prim, 0.0));
-                    hits += 1;
-                }
+                hits += usize::from(hit.is_some());
             }
         }
     }

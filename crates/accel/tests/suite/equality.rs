@@ -1,7 +1,5 @@
 //! Validation G3: the tree and brute force find the same hits, bit for bit.
-use durer_accel::{
-    Accel, AccelBuilder, BuildOptions, Engine, Hit, NoTraversalProbe, Placement, TraversalCounts, Triangles,
-};
+use durer_accel::{Accel, AccelBuilder, BuildOptions, Engine, Hit, Placement, TraversalCounts, Triangles};
 use durer_core::glam::{DAffine3, DQuat, DVec3};
 use durer_core::math::{Bounds3, Motion, Normal3, Point3, Ray, Transform};
 
@@ -91,7 +89,7 @@ fn build(recipe: &Recipe, options: BuildOptions) -> Accel {
         let added = builder.instance(ids[*geometry], placement.clone()).expect("valid placement");
         assert_eq!(added as usize, index);
     }
-    builder.build()
+    builder.build().expect("within limits")
 }
 
 impl Recipe {
@@ -108,13 +106,13 @@ impl Recipe {
 
 /// The hit both engines find.
 fn assert_equal(tree: &Accel, brute: &Accel, shapes: &Shapes, ray: &Ray) -> Option<Hit> {
-    let expected = brute.closest(ray, shapes, &mut NoTraversalProbe, ());
-    let got = tree.closest(ray, shapes, &mut NoTraversalProbe, ());
+    let expected = brute.query(ray).user(shapes).closest();
+    let got = tree.query(ray).user(shapes).closest();
     let bits = |h: Hit| (h.instance, h.prim, h.t.to_bits(), h.u.to_bits(), h.v.to_bits());
     assert_eq!(got.map(bits), expected.map(bits), "{ray:?} {got:?} {expected:?}");
-    let shadow = tree.any(ray, shapes, &mut NoTraversalProbe, ());
+    let shadow = tree.query(ray).user(shapes).any();
     assert_eq!(shadow, expected.is_some(), "{ray:?} {expected:?}");
-    assert_eq!(brute.any(ray, shapes, &mut NoTraversalProbe, ()), shadow, "{ray:?}");
+    assert_eq!(brute.query(ray).user(shapes).any(), shadow, "{ray:?}");
     got
 }
 
@@ -126,8 +124,7 @@ fn the_tree_finds_the_hits_of_brute_force() {
         let mut random = Random(scene);
         let recipe = recipe(&mut random);
         let shapes = recipe.shapes();
-        let leaf_max = 1 + (scene % 8) as u32;
-        let tree = build(&recipe, BuildOptions { leaf_max, ..BuildOptions::default() });
+        let tree = build(&recipe, BuildOptions { ..BuildOptions::default() });
         let brute = build(&recipe, BuildOptions { engine: Engine::BruteForce, ..BuildOptions::default() });
         for _ in 0..ray_count(200_000) / scenes as usize {
             let ray = random.ray(5.0, &recipe.landmarks);
@@ -152,7 +149,7 @@ fn of_coincident_primitives_the_first_is_hit() {
         let shapes = recipe.shapes();
         for _ in 0..2000 {
             let ray = random.ray(5.0, &recipe.landmarks);
-            let hit = tree.closest(&ray, &shapes, &mut NoTraversalProbe, ());
+            let hit = tree.query(&ray).user(&shapes).closest();
             assert!(hit.is_none_or(|h| h.instance != 2 && h.instance != 8), "{hit:?}");
         }
     }
@@ -173,10 +170,10 @@ fn brute_force_tests_every_primitive_with_every_ray() {
             continue;
         }
         rays += 1;
-        brute.closest(&ray, &shapes, &mut all, ());
-        brute.any(&ray, &shapes, &mut all, ());
-        tree.closest(&ray, &shapes, &mut walked, ());
-        tree.any(&ray, &shapes, &mut walked, ());
+        brute.query(&ray).user(&shapes).probe(&mut all, ()).closest();
+        brute.query(&ray).user(&shapes).probe(&mut all, ()).any();
+        tree.query(&ray).user(&shapes).probe(&mut walked, ()).closest();
+        tree.query(&ray).user(&shapes).probe(&mut walked, ()).any();
     }
     assert_eq!(all, TraversalCounts { nodes: 0, primitives: 2 * rays * recipe.primitives() as u64 });
     assert!(walked.primitives * 4 < all.primitives && walked.nodes > 0, "{walked:?} {all:?}");
@@ -198,11 +195,11 @@ fn shapes_that_stick_out_of_their_boxes_are_hit_alike() {
             Bounds3::new(b.center() - b.diagonal() * 0.3, b.center() + b.diagonal() * 0.3)
         };
         let build = |engine| {
-            let options = BuildOptions { engine, leaf_max: 1, ..BuildOptions::default() };
+            let options = BuildOptions { engine, ..BuildOptions::default() };
             let mut builder = AccelBuilder::new(options);
             let id = builder.user(balls.iter().map(shrunk).collect()).expect("valid boxes");
             builder.instance(id, Placement::Identity).expect("valid placement");
-            builder.build()
+            builder.build().expect("within limits")
         };
         let (tree, brute) = (build(Engine::Bvh), build(Engine::BruteForce));
         let shapes = Shapes(vec![balls.clone()]);
@@ -233,14 +230,13 @@ fn instances_far_away_or_squashed_are_hit_alike() {
             })
             .collect();
         let build = |engine| {
-            let mut builder =
-                AccelBuilder::new(BuildOptions { engine, leaf_max: 1, ..BuildOptions::default() });
+            let mut builder = AccelBuilder::new(BuildOptions { engine, ..BuildOptions::default() });
             let ids: Vec<_> =
                 meshes.iter().map(|m| builder.triangles(m.clone()).expect("valid mesh")).collect();
             for (i, placement) in placements.iter().enumerate() {
                 builder.instance(ids[i % 3], placement.clone()).expect("valid placement");
             }
-            builder.build()
+            builder.build().expect("within limits")
         };
         let (tree, brute) = (build(Engine::Bvh), build(Engine::BruteForce));
         let center = Point3::from_f64(far);

@@ -1,8 +1,6 @@
 //! Invariants on inputs proptest invents and shrinks.
-use durer_accel::{
-    AccelBuilder, BuildOptions, Engine, NoTraversalProbe, NoUserGeometry, Placement, Triangles,
-};
-use durer_core::math::{Bounds3, Point3, Ray};
+use durer_accel::{AccelBuilder, BuildOptions, Engine, Placement, Triangles};
+use durer_core::math::{Point3, Ray};
 use proptest::prelude::*;
 
 /// Small integers make degenerate, coincident and axis-aligned things likely.
@@ -25,26 +23,24 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn engines_agree_and_hits_lie_on_their_triangle(mesh in mesh(), o in triple(), d in triple(), leaf_max in 1u32..5) {
+    fn engines_agree_and_hits_lie_on_their_triangle(mesh in mesh(), o in triple(), d in triple()) {
         let build = |engine| {
-            let mut b = AccelBuilder::new(BuildOptions { engine, leaf_max, ..BuildOptions::default() });
+            let mut b = AccelBuilder::new(BuildOptions { engine, ..BuildOptions::default() });
             let id = b.triangles(mesh.clone()).expect("valid mesh");
             b.instance(id, Placement::Identity).expect("valid placement");
-            b.build()
+            b.build().expect("within limits")
         };
         let (tree, brute) = (build(Engine::Bvh), build(Engine::BruteForce));
         let ray = Ray::new(o.into(), d.into());
-        let hit = tree.closest(&ray, &NoUserGeometry, &mut NoTraversalProbe, ());
-        prop_assert_eq!(hit, brute.closest(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()));
-        prop_assert_eq!(hit.is_some(), tree.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()));
-        prop_assert_eq!(hit.is_some(), brute.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()));
+        let hit = tree.query(&ray).closest();
+        prop_assert_eq!(hit, brute.query(&ray).closest());
+        prop_assert_eq!(hit.is_some(), tree.query(&ray).any());
+        prop_assert_eq!(hit.is_some(), brute.query(&ray).any());
         if let Some(h) = hit {
             prop_assert!(h.t > 0.0 && h.t.is_finite());
             prop_assert!(h.u >= 0.0 && h.v >= 0.0 && h.u + h.v <= 1.0 + 2e-6);
-            let vertices = tree.triangle(0, h.prim, 0.0).expect("a mesh");
-            prop_assert_eq!(vertices, mesh.indices[h.prim as usize].map(|i| mesh.positions[i as usize]));
-            let b = Bounds3::around(vertices);
-            prop_assert!(!b.is_empty());
+            let [a, b, c] = mesh.indices[h.prim as usize].map(|i| mesh.positions[i as usize]);
+            prop_assert_eq!(h.n_g, (b - a).cross(c - a));
         }
     }
 
@@ -53,9 +49,9 @@ proptest! {
         let mut b = AccelBuilder::new(BuildOptions::default());
         let id = b.triangles(mesh).expect("valid mesh");
         b.instance(id, Placement::Identity).expect("valid placement");
-        let accel = b.build();
+        let accel = b.build().expect("within limits");
         let ray = Ray::new(o.into(), d.into());
-        let closest = |ray: &Ray| accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ());
+        let closest = |ray: &Ray| accel.query(ray).closest();
         let (whole, part) = (closest(&ray), closest(&Ray { t_max: cut, ..ray }));
         prop_assert_eq!(part, whole.filter(|h| h.t <= cut));
     }

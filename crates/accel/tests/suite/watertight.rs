@@ -1,7 +1,5 @@
 //! Validation G2 and G6: nothing passes between the triangles of a closed mesh, at any scale, through the tree.
-use durer_accel::{
-    Accel, AccelBuilder, BuildOptions, NoTraversalProbe, NoUserGeometry, Placement, Triangles,
-};
+use durer_accel::{Accel, AccelBuilder, BuildOptions, Placement, Triangles};
 use durer_core::glam::{DAffine3, DQuat, DVec3};
 use durer_core::math::{Motion, Point3, Ray, Transform, Vector3};
 
@@ -12,7 +10,7 @@ fn build(mesh: &Triangles, placement: Placement) -> Accel {
     let mut builder = AccelBuilder::new(BuildOptions::default());
     let id = builder.triangles(mesh.clone()).expect("valid mesh");
     builder.instance(id, placement).expect("valid placement");
-    builder.build()
+    builder.build().expect("within limits")
 }
 
 /// From inside and outside towards vertices, edge midpoints and anything between; `center` and `scale` say where the
@@ -39,9 +37,9 @@ fn assert_closed(
         let outside = aim + (aim - center) * 2.0 + random.direction() * scale;
         for o in [inside, outside] {
             let ray = Ray { time: random.unit(), ..Ray::new(o, aim - o) };
-            let hit = accel.closest(&ray, &NoUserGeometry, &mut NoTraversalProbe, ());
+            let hit = accel.query(&ray).closest();
             assert!(hit.is_some_and(|h| (h.t - 1.0).abs() < 0.05), "leak: {ray:?} {hit:?}");
-            assert!(accel.any(&ray, &NoUserGeometry, &mut NoTraversalProbe, ()), "leak: {ray:?}");
+            assert!(accel.query(&ray).any(), "leak: {ray:?}");
         }
     }
 }

@@ -140,6 +140,17 @@ impl Transform {
     pub fn ray(&self, r: &Ray) -> Ray {
         Ray { o: self.point(r.o), d: self.vector(r.d), ..*r }
     }
+    /// Maps a ray back, as `inverse().ray(r)` does.
+    #[inline]
+    pub fn ray_back(&self, r: &Ray) -> Ray {
+        let o = mapped(&self.inverse, self.only_moves, r.o);
+        if self.only_moves {
+            return Ray { o, ..*r };
+        }
+        let v = r.d.to_array();
+        let [x, y, z] = self.inverse.each_ref().map(|row| dot3(row, v));
+        Ray { o, d: Vector3::new(x, y, z), ..*r }
+    }
     /// The box around the mapped corners, grown by the rounding error of mapping them.
     pub fn bounds(&self, b: &Bounds3) -> Bounds3 {
         if b.is_empty() || !b.is_finite() {

@@ -200,19 +200,19 @@ impl Placing<'_> {
             targets.push(Target::Mover(index as u32));
         }
         let mut known: HashMap<*const Mesh, GeometryId> = HashMap::new();
-        for PendingMesh { object, mesh, motion, .. } in several {
-            let geometry = match known.entry(Arc::as_ptr(&mesh)) {
+        for PendingMesh { object, mesh, motion, .. } in &several {
+            let geometry = match known.entry(Arc::as_ptr(mesh)) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
                     let keys = (0..mesh.keys()).map(|key| mesh.key(key));
                     *new.insert(kernel.keyed_triangles(&mesh.indices, keys)?)
                 }
             };
-            kernel.instance(geometry, Placement::from_motion(&motion))?;
-            targets.push(Target::Mesh(object, mesh));
+            kernel.instance(geometry, Placement::from_motion(motion))?;
+            targets.push(Target::Mesh(*object, Arc::clone(mesh)));
         }
         let movers = pending.movers.into_iter().map(|(mover, _)| mover).collect();
-        let accel = kernel.build();
+        let accel = kernel.build()?;
         let building = start.elapsed();
         Ok(Placed { accel, objects, targets, merged, shapes: pending.shapes, movers, building })
     }

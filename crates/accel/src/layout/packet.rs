@@ -1,0 +1,128 @@
+//! Leaves: up to eight triangles, vertex by vertex and axis by axis.
+use durer_core::math::Point3;
+
+use crate::{lanes::Lanes, simd::Record};
+
+/// Triangles per packet.
+pub(crate) const PACKET: usize = 8;
+
+/// Coordinates of eight points, by axis.
+type Points = [[f32; PACKET]; 3];
+
+/// Eight triangles. A lane that is not used repeats lane 0, id and all, so that its hits lose every tie.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Packet {
+    vertices: [Points; 3],
+    ids: [u32; PACKET],
+}
+
+/// Eight triangles whose vertices move on straight lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct MovingPacket {
+    start: [Points; 3],
+    end: [Points; 3],
+    ids: [u32; PACKET],
+}
+
+/// What packets of both sorts can be asked.
+pub(crate) trait PacketRecord: Record + Send + Sync {
+    /// Coordinate `axis` of vertex `vertex` of all eight, at the fraction `u` of the stretch of time.
+    fn coordinate<V: Lanes<Array = [f32; PACKET]>>(
+        &self,
+        token: V::Token,
+        vertex: usize,
+        axis: Axis,
+        u: f32,
+    ) -> V;
+    fn ids(&self) -> &[u32; PACKET];
+    /// One triangle.
+    fn triangle(&self, lane: usize, u: f32) -> [Point3; 3];
+    /// Lanes that are used.
+    fn len(&self) -> usize {
+        let ids = self.ids();
+        ids[1..].iter().position(|id| *id == ids[0]).map_or(PACKET, |at| at + 1)
+    }
+    /// Writes the triangles `(id, vertices at the start, at the end)`, 1 to 8 of them.
+    fn of(triangles: &[(u32, [[Point3; 3]; 2])]) -> Self;
+}
+
+/// x, y or z. An enum, so that the compiler knows there is no fourth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub(crate) enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Axis {
+    pub(crate) fn new(index: usize) -> Self {
+        [Self::X, Self::Y, Self::Z][index % 3]
+    }
+}
+
+fn points(triangles: &[(u32, [[Point3; 3]; 2])], key: usize) -> [Points; 3] {
+    let lane = |i: usize| if i < triangles.len() { &triangles[i].1[key] } else { &triangles[0].1[key] };
+    std::array::from_fn(|vertex| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[vertex][axis])))
+}
+
+fn ids(triangles: &[(u32, [[Point3; 3]; 2])]) -> [u32; PACKET] {
+    std::array::from_fn(|i| triangles.get(i).unwrap_or(&triangles[0]).0)
+}
+
+fn corner(points: &Points, lane: usize) -> Point3 {
+    Point3::new(points[0][lane], points[1][lane], points[2][lane])
+}
+
+impl PacketRecord for Packet {
+    #[inline(always)]
+    fn coordinate<V: Lanes<Array = [f32; PACKET]>>(
+        &self,
+        token: V::Token,
+        vertex: usize,
+        axis: Axis,
+        _: f32,
+    ) -> V {
+        V::load(token, &self.vertices[vertex][axis as usize])
+    }
+    #[inline(always)]
+    fn ids(&self) -> &[u32; PACKET] {
+        &self.ids
+    }
+    fn triangle(&self, lane: usize, _: f32) -> [Point3; 3] {
+        self.vertices.each_ref().map(|points| corner(points, lane))
+    }
+    fn of(triangles: &[(u32, [[Point3; 3]; 2])]) -> Self {
+        Self { vertices: points(triangles, 0), ids: ids(triangles) }
+    }
+}
+
+impl PacketRecord for MovingPacket {
+    /// `Segment::point` of the core, in lanes: it never leaves the box around the two ends.
+    #[inline(always)]
+    fn coordinate<V: Lanes<Array = [f32; PACKET]>>(
+        &self,
+        token: V::Token,
+        vertex: usize,
+        axis: Axis,
+        u: f32,
+    ) -> V {
+        let a = V::load(token, &self.start[vertex][axis as usize]);
+        let b = V::load(token, &self.end[vertex][axis as usize]);
+        let x = a.mul(V::splat(token, 1.0 - u)).add(b.mul(V::splat(token, u)));
+        x.max(a.min(b)).min(a.max(b))
+    }
+    #[inline(always)]
+    fn ids(&self) -> &[u32; PACKET] {
+        &self.ids
+    }
+    fn triangle(&self, lane: usize, u: f32) -> [Point3; 3] {
+        let segment = durer_core::math::Segment { key: 0, u };
+        std::array::from_fn(|i| segment.point(corner(&self.start[i], lane), corner(&self.end[i], lane)))
+    }
+    fn of(triangles: &[(u32, [[Point3; 3]; 2])]) -> Self {
+        Self { start: points(triangles, 0), end: points(triangles, 1), ids: ids(triangles) }
+    }
+}

@@ -1,0 +1,59 @@
+//! Who is who in the scene's own tree: numbers of primitives, instance after instance.
+
+/// Ranges of numbers and the instances they belong to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Owners {
+    /// First number of each range, rising.
+    starts: Vec<u32>,
+    instances: Vec<u32>,
+    total: u32,
+}
+
+impl Owners {
+    /// Appends an instance with `count` primitives; returns the number of the first. Instances must come in order, so that
+    /// numbers are ordered as `(instance, prim)` is.
+    pub(crate) fn push(&mut self, instance: u32, count: u32) -> u32 {
+        let first = self.total;
+        self.starts.push(first);
+        self.instances.push(instance);
+        self.total += count;
+        first
+    }
+
+    /// All numbers are below this.
+    pub(crate) fn total(&self) -> u32 {
+        self.total
+    }
+
+    /// The instance of number `id`, and which of its primitives it is.
+    #[inline]
+    pub(crate) fn of(&self, id: u32) -> (u32, u32) {
+        let at = match self.starts.len() {
+            1 => 0,
+            _ => self.starts.partition_point(|start| *start <= id).saturating_sub(1),
+        };
+        match (self.instances.get(at), self.starts.get(at)) {
+            (Some(&instance), Some(&start)) => (instance, id - start),
+            _ => (u32::MAX, u32::MAX),
+        }
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.starts.as_slice()) + size_of_val(self.instances.as_slice())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_find_their_instance_past_empty_ones() {
+        let mut owners = Owners::default();
+        for (instance, count) in [(2, 3), (3, 0), (7, 1), (9, 5)] {
+            owners.push(instance, count);
+        }
+        let found: Vec<_> = (0..owners.total()).map(|id| owners.of(id)).collect();
+        assert_eq!(found, [(2, 0), (2, 1), (2, 2), (7, 0), (9, 0), (9, 1), (9, 2), (9, 3), (9, 4)]);
+    }
+}

@@ -1,0 +1,238 @@
+//! Asking for hits.
+use durer_core::math::{Ray, Vector3};
+
+use crate::{
+    Accel, Engine, Hit, NoTraversalProbe, NoUserGeometry, Precision, TraversalProbe, UserGeometry,
+    isa::Registers,
+    layout::{MovingPacket, Packet, PacketRecord},
+    probe::{Sink, Told, Unwatched, Watch},
+    space::Space,
+    traverse::{Best, Cx, Kernel, Level, Place, SCENE, exhaustive_blocked, exhaustive_nearest},
+    tree::{Forest, Trees},
+    user::Callback,
+};
+
+/// A ray and what it asks: `accel.query(&ray).mask(1).closest()`.
+pub struct Query<'q, U = NoUserGeometry, P: TraversalProbe = NoTraversalProbe> {
+    accel: &'q Accel,
+    ray: &'q Ray,
+    user: &'q U,
+    told: Option<Told<'q, P>>,
+    mask: u32,
+    culls: bool,
+}
+
+impl Accel {
+    /// The nearest hit of `ray` with `t` in `[t_min, t_max]`; on equal `t` the one with the smaller `(instance, prim)`.
+    #[inline]
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.query(ray).closest()
+    }
+
+    /// Whether anything is hit with `t` in `[t_min, t_max]`: equal to `closest(..).is_some()`, but faster.
+    #[inline]
+    pub fn any(&self, ray: &Ray) -> bool {
+        self.query(ray).any()
+    }
+
+    /// A query with more to say: shapes of the caller, masks, backs, a probe.
+    #[inline]
+    pub fn query<'q>(&'q self, ray: &'q Ray) -> Query<'q> {
+        Query { accel: self, ray, user: &NoUserGeometry, told: None, mask: u32::MAX, culls: false }
+    }
+}
+
+impl<'q, U: UserGeometry, P: TraversalProbe> Query<'q, U, P> {
+    /// `user` answers for the boxes of `AccelBuilder::user`, and for holes.
+    #[inline]
+    pub fn user<V: UserGeometry>(self, user: &'q V) -> Query<'q, V, P> {
+        let Self { accel, ray, told, mask, culls, .. } = self;
+        Query { accel, ray, user, told, mask, culls }
+    }
+
+    /// `probe` watches; events carry `id`.
+    #[inline]
+    pub fn probe<Q: TraversalProbe>(self, probe: &'q mut Q, id: Q::Id) -> Query<'q, U, Q> {
+        let Self { accel, ray, user, mask, culls, .. } = self;
+        Query { accel, ray, user, told: Some(Told { probe, id }), mask, culls }
+    }
+
+    /// Only instances whose mask shares a bit with this one are there. The default sees all.
+    #[inline]
+    pub fn mask(self, mask: u32) -> Self {
+        Self { mask, ..self }
+    }
+
+    /// One-sided instances are not hit from behind.
+    #[inline]
+    pub fn cull_backs(self, culls: bool) -> Self {
+        Self { culls, ..self }
+    }
+
+    /// See [`Accel::closest`].
+    #[inline]
+    pub fn closest(self) -> Option<Hit> {
+        let cx = Cx::new(self.accel, self.user, self.mask, self.culls, U::FILTERS);
+        match self.told {
+            Some(mut told) if P::ACTIVE => {
+                let mut sink: &mut dyn Sink = &mut told;
+                cx.closest(self.ray, &mut sink)
+            }
+            _ => cx.closest(self.ray, &mut Unwatched),
+        }
+    }
+
+    /// See [`Accel::any`].
+    #[inline]
+    pub fn any(self) -> bool {
+        let cx = Cx::new(self.accel, self.user, self.mask, self.culls, U::FILTERS);
+        match self.told {
+            Some(mut told) if P::ACTIVE => {
+                let mut sink: &mut dyn Sink = &mut told;
+                cx.any(self.ray, &mut sink)
+            }
+            _ => cx.any(self.ray, &mut Unwatched),
+        }
+    }
+}
+
+/// Runs `$call` with `$kernel` bound to the registers and `$robust` to the precision of an `Accel`.
+macro_rules! dispatch {
+    ($accel:expr, $kernel:ident, $robust:ident => $call:expr) => {
+        match ($accel.registers, $accel.precision) {
+            #[cfg(target_arch = "x86_64")]
+            (Registers::Avx512($kernel), Precision::Robust) => {
+                const $robust: bool = true;
+                $call
+            }
+            #[cfg(target_arch = "x86_64")]
+            (Registers::Avx512($kernel), Precision::Fast) => {
+                const $robust: bool = false;
+                $call
+            }
+            #[cfg(target_arch = "x86_64")]
+            (Registers::Avx2($kernel), Precision::Robust) => {
+                const $robust: bool = true;
+                $call
+            }
+            #[cfg(target_arch = "x86_64")]
+            (Registers::Avx2($kernel), Precision::Fast) => {
+                const $robust: bool = false;
+                $call
+            }
+            (Registers::Portable($kernel), Precision::Robust) => {
+                const $robust: bool = true;
+                $call
+            }
+            (Registers::Portable($kernel), Precision::Fast) => {
+                const $robust: bool = false;
+                $call
+            }
+        }
+    };
+}
+
+impl<'a> Cx<'a> {
+    #[inline]
+    fn new(accel: &'a Accel, callback: &'a dyn Callback, mask: u32, culls: bool, filters: bool) -> Self {
+        let checks = filters || culls || accel.is_selective;
+        let exhaustive = accel.engine == Engine::BruteForce;
+        Self { accel, callback, mask, culls, filters, checks, exhaustive }
+    }
+
+    #[inline(never)]
+    fn closest<W: Watch>(&self, ray: &Ray, watch: &mut W) -> Option<Hit> {
+        let t_max = end(ray)?;
+        let mut best = Best { t: t_max, u: 0.0, v: 0.0, place: Place::NOWHERE };
+        self.each(ray, |level| {
+            if self.exhaustive {
+                exhaustive_nearest(self, level, &mut best, watch);
+            } else {
+                dispatch!(self.accel, kernel, ROBUST =>
+                    kernel.nearest::<W, ROBUST>(self, level, &mut best, watch));
+            }
+            false
+        });
+        self.hit(ray, &best)
+    }
+
+    #[inline(never)]
+    fn any<W: Watch>(&self, ray: &Ray, watch: &mut W) -> bool {
+        let Some(t_max) = end(ray) else { return false };
+        self.each(ray, |level| {
+            if self.exhaustive {
+                exhaustive_blocked(self, level, t_max, watch)
+            } else {
+                dispatch!(self.accel, kernel, ROBUST =>
+                    kernel.blocked::<W, ROBUST>(self, level, t_max, watch))
+            }
+        })
+    }
+
+    /// Runs `visit` on the trees of the scene until it says true.
+    #[inline(always)]
+    fn each(&self, ray: &Ray, mut visit: impl FnMut(&Level<'_>) -> bool) -> bool {
+        let mut level = |forest: &Forest| {
+            let space = match self.accel.precision {
+                Precision::Robust => Space::new::<true>(ray, forest.region),
+                Precision::Fast => Space::new::<false>(ray, forest.region),
+            };
+            space.is_some_and(|space| visit(&Level { space, forest, instance: SCENE, floor: f32::MIN }))
+        };
+        let found = level(&self.accel.scene);
+        match &self.accel.movers {
+            Some(movers) if !found || self.exhaustive => level(&movers.forest) || found,
+            _ => found,
+        }
+    }
+
+    /// What callers get to see.
+    #[inline(always)]
+    fn hit(&self, ray: &Ray, best: &Best) -> Option<Hit> {
+        let place = &best.place;
+        if place.id == u32::MAX {
+            return None;
+        }
+        let (instance, prim) = self.primitive(place.instance, place.id);
+        let n_g = self.normal(ray, place, instance);
+        let (prim, u, v) = self.accel.called(instance, prim, best.u, best.v);
+        Some(Hit { t: best.t, instance, prim, u, v, n_g })
+    }
+
+    /// The normal of the hit triangle in its instance's object space; zero for shapes.
+    #[inline(always)]
+    fn normal(&self, ray: &Ray, place: &Place, instance: u32) -> Vector3 {
+        if place.row == Place::NO_PACKET {
+            return Vector3::ZERO;
+        }
+        let owner = &self.accel.instances[instance as usize];
+        let of = |[a, b, c]: [durer_core::math::Point3; 3]| (b - a).cross(c - a);
+        let lane = place.lane as usize;
+        if place.instance == SCENE {
+            let n = of(self.accel.scene.trees()[0].pages.get::<Packet>(place.row).triangle(lane, 0.0));
+            return match owner.pose.at(ray.time) {
+                None => n,
+                // The tree holds the mesh where it is placed.
+                Some(m) => m.inverse().normal(n.into()).into(),
+            };
+        }
+        let Some(forest) = &self.accel.geometries[owner.geometry.index()].forest else {
+            return Vector3::ZERO;
+        };
+        match &forest.trees {
+            Trees::Still(tree) => of(tree.pages.get::<Packet>(place.row).triangle(lane, 0.0)),
+            Trees::Moving { times, trees } => {
+                let at = durer_core::math::Segment::at(ray.time, times.len(), |i| times[i]);
+                of(trees[at.key].pages.get::<MovingPacket>(place.row).triangle(lane, at.u))
+            }
+        }
+    }
+}
+
+/// Where the ray ends; `None` if that is before it begins. A finite end keeps infinity, which a shape's division by 0
+/// may return, from counting as a hit.
+#[inline(always)]
+fn end(ray: &Ray) -> Option<f32> {
+    let t_max = if ray.t_max == f32::INFINITY { f32::MAX } else { ray.t_max };
+    (ray.t_min <= t_max).then_some(t_max)
+}

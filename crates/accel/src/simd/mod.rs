@@ -1,0 +1,15 @@
+//! What needs `unsafe`: vector registers, uninitialised memory, big pages. Everything here has a safe face.
+#![allow(unsafe_code)]
+
+#[cfg(target_arch = "x86_64")]
+mod entry;
+mod pages;
+mod records;
+mod stack;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub(crate) use pages::{Pages, ROW, Record};
+pub(crate) use stack::Stack;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use x86::{Avx2, Avx512};

@@ -1,0 +1,237 @@
+//! What happens in leaves: packets of triangles are tested, shapes asked, instances entered.
+use std::marker::PhantomData;
+
+use super::{Best, Cx, Kernel, Level, Place, SCENE, boxes::BoxRay};
+use crate::{
+    Hit, PrimitiveHit,
+    layout::{Link, PACKET, PacketRecord, Target},
+    probe::Watch,
+    slab::{Window, greater},
+    tree::Tree,
+    triangle::{self, Found, Reach},
+};
+
+/// The leaves of one tree, for one ray.
+pub(crate) struct Leaves<'a, K, R, W, const ROBUST: bool> {
+    kernel: K,
+    cx: &'a Cx<'a>,
+    level: &'a Level<'a>,
+    tree: &'a Tree,
+    /// How far the tree's stretch of time has gone.
+    moment: f32,
+    pub(crate) watch: &'a mut W,
+    found: Found<[f32; PACKET]>,
+    packets: PhantomData<R>,
+}
+
+impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K, R, W, ROBUST> {
+    #[inline(always)]
+    pub(crate) fn new(
+        kernel: K,
+        cx: &'a Cx<'a>,
+        level: &'a Level<'a>,
+        (tree, moment): (&'a Tree, f32),
+        watch: &'a mut W,
+    ) -> Self {
+        let found = Found { t: [0.0; PACKET], u: [0.0; PACKET], v: [0.0; PACKET] };
+        Self { kernel, cx, level, tree, moment, watch, found, packets: PhantomData }
+    }
+
+    #[inline(always)]
+    pub(crate) fn box_ray(&self) -> BoxRay<K::Boxes> {
+        let space = &self.level.space;
+        BoxRay::new(self.kernel, &space.slab, space.ray.t_min, self.moment)
+    }
+
+    #[inline(always)]
+    pub(crate) fn nearest(&mut self, link: Link, best: &mut Best) {
+        match link.target() {
+            Target::Packet(row) => self.packet_nearest(row, best),
+            Target::Item(item) => self.item_nearest(item, best),
+            Target::Instance(instance) => self.instance_nearest(instance, best),
+            Target::Node(_) => {}
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn blocked(&mut self, link: Link, t_max: f32) -> bool {
+        match link.target() {
+            Target::Packet(row) => self.packet_blocks(row, t_max),
+            Target::Item(item) => self.item_blocks(item, t_max),
+            Target::Instance(instance) => self.instance_blocks(instance, t_max),
+            Target::Node(_) => false,
+        }
+    }
+
+    /// Bit `i`: triangle `i` of the packet is hit, as `found` says.
+    #[inline(always)]
+    fn test(&mut self, packet: &R, t_max: f32) -> u32 {
+        if W::ACTIVE {
+            for &id in &packet.ids()[..packet.len()] {
+                let (instance, prim) = self.cx.primitive(self.level.instance, id);
+                self.watch.primitive(instance, prim);
+            }
+        }
+        let space = &self.level.space;
+        let reach = Reach { t_min: space.ray.t_min, t_max, floor: self.level.floor };
+        let (kernel, moment) = (self.kernel, self.moment);
+        triangle::packet::<K::Packets, R, ROBUST>(
+            kernel,
+            packet,
+            &space.shear,
+            &reach,
+            moment,
+            &mut self.found,
+        )
+    }
+
+    /// The hit of a lane that `test` found.
+    #[inline(always)]
+    fn lane(&self, row: u32, packet: &R, lane: u32) -> Best {
+        let at = lane as usize % PACKET;
+        let place = Place { instance: self.level.instance, id: packet.ids()[at], row, lane };
+        Best { t: self.found.t[at], u: self.found.u[at], v: self.found.v[at], place }
+    }
+
+    #[inline(always)]
+    fn packet_nearest(&mut self, row: u32, best: &mut Best) {
+        let packet: &R = self.tree.pages.get(row);
+        let mut bits = self.test(packet, best.t);
+        while bits != 0 {
+            let hit = self.lane(row, packet, bits.trailing_zeros());
+            bits &= bits - 1;
+            if self.wins(&hit, best) && (!self.cx.checks || self.triangle_counts(packet, &hit)) {
+                *best = hit;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn packet_blocks(&mut self, row: u32, t_max: f32) -> bool {
+        let packet: &R = self.tree.pages.get(row);
+        let mut bits = self.test(packet, t_max);
+        if !self.cx.checks {
+            return bits != 0;
+        }
+        while bits != 0 {
+            let hit = self.lane(row, packet, bits.trailing_zeros());
+            bits &= bits - 1;
+            if self.triangle_counts(packet, &hit) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Nearer, or as near with a smaller name.
+    #[inline(always)]
+    fn wins(&self, hit: &Best, best: &Best) -> bool {
+        hit.t < best.t || (hit.t == best.t && self.cx.rank(&hit.place) < self.cx.rank(&best.place))
+    }
+
+    /// Whether the ray may see this hit: mask, side and filter.
+    #[cold]
+    fn triangle_counts(&self, packet: &R, hit: &Best) -> bool {
+        let (instance, prim) = self.cx.primitive(hit.place.instance, hit.place.id);
+        let placed = &self.cx.accel.instances[instance as usize];
+        if placed.seen.mask & self.cx.mask == 0 {
+            return false;
+        }
+        if self.cx.culls && placed.seen.hides_backs {
+            let [a, b, c] = packet.triangle(hit.place.lane as usize, self.moment);
+            let front = (b - a).cross(c - a).dot(self.level.space.ray.d) <= 0.0;
+            if front == placed.seen.is_reversed {
+                return false;
+            }
+        }
+        self.passes(instance, prim, hit)
+    }
+
+    /// Whether the caller's filter lets the hit count.
+    fn passes(&self, instance: u32, prim: u32, hit: &Best) -> bool {
+        !self.cx.filters || {
+            let (prim, u, v) = self.cx.accel.called(instance, prim, hit.u, hit.v);
+            let n_g = durer_core::math::Vector3::ZERO;
+            self.cx.callback.accepts(&Hit { t: hit.t, instance, prim, u, v, n_g })
+        }
+    }
+
+    #[inline(never)]
+    fn item_nearest(&mut self, item: u32, best: &mut Best) {
+        let Some((instance, prim, window)) = self.item(item, best.t) else { return };
+        let ray = self.level.space.ray;
+        let found = self.cx.callback.intersect(instance, prim, ray, best.t);
+        let Some(PrimitiveHit { t, u, v }) = found else { return };
+        let Some(t) = self.admit(t, window, best.t) else { return };
+        let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
+        let hit = Best { t, u, v, place };
+        if self.wins(&hit, best) && self.passes(instance, prim, &hit) {
+            *best = hit;
+        }
+    }
+
+    #[inline(never)]
+    fn item_blocks(&mut self, item: u32, t_max: f32) -> bool {
+        let Some((instance, prim, window)) = self.item(item, t_max) else { return false };
+        let ray = self.level.space.ray;
+        if !self.cx.filters {
+            let blocks = self.cx.callback.occludes(instance, prim, ray, t_max);
+            return blocks && window.admits(ray.t_min, t_max) && self.level.floor <= t_max;
+        }
+        let found = self.cx.callback.intersect(instance, prim, ray, t_max);
+        let Some(PrimitiveHit { t, u, v }) = found else { return false };
+        let Some(t) = self.admit(t, window, t_max) else { return false };
+        let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
+        self.passes(instance, prim, &Best { t, u, v, place })
+    }
+
+    /// The name of an item and the stretch of the ray in its own box, if the ray may meet it.
+    fn item(&mut self, item: u32, t_max: f32) -> Option<(u32, u32, Window)> {
+        let (instance, prim) = self.cx.primitive(self.level.instance, item);
+        if self.cx.accel.instances[instance as usize].seen.mask & self.cx.mask == 0 {
+            return None;
+        }
+        let space = &self.level.space;
+        let own = self.cx.accel.items(instance).own_box(prim);
+        let window = own.map_or(Window::ALL, |b| space.slab.window(&b));
+        let asks = window.admits(space.ray.t_min, t_max) || self.cx.exhaustive;
+        if asks {
+            self.watch.primitive(instance, prim);
+        }
+        asks.then_some((instance, prim, window))
+    }
+
+    /// The `t` a hit at `t` counts with: not before the ray enters the boxes (see the crate's contract). `None` if that
+    /// leaves `[t_min, t_max]`.
+    fn admit(&self, t: f32, window: Window, t_max: f32) -> Option<f32> {
+        let t_min = self.level.space.ray.t_min;
+        let raised = greater(greater(t, window.near), self.level.floor);
+        let valid = window.admits(t_min, t_max) && t >= t_min && raised <= t_max;
+        valid.then_some(raised)
+    }
+
+    #[inline(always)]
+    fn instance_nearest(&mut self, index: u32, best: &mut Best) {
+        let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
+        cx.enter::<ROBUST, _>(index, &self.level.space, best.t, |level| {
+            kernel.nearest::<W, ROBUST>(cx, level, best, watch);
+        });
+    }
+
+    #[inline(always)]
+    fn instance_blocks(&mut self, index: u32, t_max: f32) -> bool {
+        let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
+        let blocked = cx.enter::<ROBUST, _>(index, &self.level.space, t_max, |level| {
+            kernel.blocked::<W, ROBUST>(cx, level, t_max, watch)
+        });
+        blocked == Some(true)
+    }
+}
+
+impl Cx<'_> {
+    /// The instance and primitive that number `id` in a tree stands for.
+    #[inline(always)]
+    pub(crate) fn primitive(&self, instance: u32, id: u32) -> (u32, u32) {
+        if instance == SCENE { self.accel.owners.of(id) } else { (instance, id) }
+    }
+}

@@ -1,0 +1,126 @@
+//! The walk to the first hit: nearest child first, the others put aside with where the ray enters them.
+use super::{Best, Cx, Kernel, Level, leaf::Leaves};
+use crate::{
+    lanes::Lanes,
+    layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
+    probe::Watch,
+    simd::Stack,
+    tree::{Tree, Trees},
+};
+
+/// Offers the hits in a tree to `best`.
+#[inline(always)]
+pub(crate) fn nearest<K: Kernel, W: Watch, const ROBUST: bool>(
+    kernel: K,
+    cx: &Cx<'_>,
+    level: &Level<'_>,
+    best: &mut Best,
+    watch: &mut W,
+) {
+    let tree = level.tree();
+    match &level.forest.trees {
+        Trees::Still(_) => {
+            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, best);
+        }
+        Trees::Moving { .. } => {
+            let mut leaves = Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, best);
+        }
+    }
+}
+
+/// Where a ray enters a box, and the box: sorts by the first. PERF: a sort in integer registers lets the processor guess
+/// the next node while it goes on; one in vector registers does not (bench kernel).
+#[inline(always)]
+fn entry(near: f32, link: u32) -> u64 {
+    u64::from(near.to_bits()) << 32 | u64::from(link)
+}
+
+#[inline(always)]
+fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST: bool>(
+    kernel: K,
+    tree: &Tree,
+    leaves: &mut Leaves<'_, K, R, W, ROBUST>,
+    best: &mut Best,
+) {
+    for &link in &tree.unbounded {
+        leaves.nearest(link, best);
+    }
+    let Some(mut link) = tree.root else { return };
+    let ray = leaves.box_ray();
+    let mut nears = <K::Boxes as Lanes>::ZEROS;
+    let mut stack = Stack::new();
+    loop {
+        if let Target::Node(row) = link.target() {
+            if W::ACTIVE {
+                leaves.watch.node(tree.name(row));
+            }
+            let node: &N = tree.pages.get(row);
+            let (mut hit, near) = ray.enter(kernel, node, best.t);
+            if hit != 0 {
+                let first = hit.trailing_zeros();
+                hit &= hit - 1;
+                link = Link(node.link(first));
+                kernel.prefetch(tree.pages.address(link));
+                if hit == 0 {
+                    continue;
+                }
+                near.store(&mut nears);
+                link = put_aside(kernel, tree, node, &nears, (first, hit), &mut stack);
+                continue;
+            }
+        } else {
+            leaves.nearest(link, best);
+        }
+        link = loop {
+            let Some(top) = stack.pop() else { return };
+            // A nearer hit may have been found since this was put aside.
+            if f32::from_bits((top >> 32) as u32) <= best.t {
+                break Link(top as u32);
+            }
+        };
+    }
+}
+
+/// Two or more children are entered: all but the nearest go onto the stack, the nearest of them on top.
+#[inline(always)]
+fn put_aside<K: Kernel, N: BoxNode<K::Boxes>>(
+    kernel: K,
+    tree: &Tree,
+    node: &N,
+    nears: &<K::Boxes as Lanes>::Array,
+    (first, mut hit): (u32, u32),
+    stack: &mut Stack,
+) -> Link {
+    let child = |lane: u32| {
+        let link = node.link(lane);
+        entry(nears.as_ref()[lane as usize], link)
+    };
+    let a = child(first);
+    let second = hit.trailing_zeros();
+    hit &= hit - 1;
+    let b = child(second);
+    kernel.prefetch(tree.pages.address(Link(b as u32)));
+    if hit == 0 {
+        let (near, far) = if a <= b { (a, b) } else { (b, a) };
+        stack.push(far);
+        return Link(near as u32);
+    }
+    stack.push(a.max(b));
+    stack.push(a.min(b));
+    let mut count = 2;
+    while hit != 0 {
+        let lane = hit.trailing_zeros();
+        hit &= hit - 1;
+        let c = child(lane);
+        kernel.prefetch(tree.pages.address(Link(c as u32)));
+        stack.push(c);
+        count += 1;
+        stack.settle(count);
+    }
+    match stack.pop() {
+        Some(nearest) => Link(nearest as u32),
+        None => Link(a as u32),
+    }
+}
