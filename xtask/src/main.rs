@@ -27,6 +27,12 @@ Tasks of the durer project.
       Renders benches/povray_spheres.pbrt at 1280 x 960 with 2 threads N times (default 5), in turns with POV-Ray on
       the twin scene if `povray` is installed; prints each run, medians and ratios, with --json as JSON.
 
+  cargo xtask bench kernel [--json] [--quick] [--runs N] [--scenes a,b] [--isa avx512,avx2,portable]
+      Traces the same rays with our kernel, Embree 4 and obvhs in turns and prints how much faster ours is, with --json as
+      JSON (docs/benchmarks.md). Puts Embree, from the Python package embreex, into target/bench/; skips where that
+      or a C compiler cannot be had. --quick traces a quarter of the rays 3 times instead of 5. Scenes: atrium,
+      sponza, sphere8, dragon, buddha (of the test files) and terrain (generated).
+
   cargo xtask assets [--folder F] [--formats gltf,obj,ply,stl] [--width 320]
       Opens and renders every model of these formats in the folder of test files (F, else the assets/ in DURER_SHARED,
       else ../shared/assets); writes docs/assets.md with a thumbnail, counts and times of each and says which were
@@ -53,6 +59,7 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
         ["test"] => test::run(test::Extent::Full),
         ["test", "--quick"] => test::run(test::Extent::Quick),
         ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
+        ["bench", "kernel", options @ ..] => bench::kernel::run(options),
         ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

@@ -17,6 +17,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("durer-cli", &["durer"]),
     ("durer-testkit", &[]),
     ("durer-tests", &["durer"]),
+    ("durer-benches", &["durer"]),
     ("xtask", &[]),
 ];
 

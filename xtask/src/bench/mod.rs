@@ -3,6 +3,8 @@
 //! In turns, so that what else the machine does hits both; the medians are what to quote. durer counts its rays while
 //! it is timed, as POV-Ray does.
 mod durer;
+mod embree;
+pub(crate) mod kernel;
 mod povray;
 mod report;
 
