@@ -2,7 +2,7 @@
 use std::hint::black_box;
 
 use durer::{
-    accel::{Accel, AccelBuilder, BuildOptions, Hit, NoTraversalProbe, NoUserGeometry, Placement, Triangles},
+    accel::{self, Accel, AccelBuilder, BuildOptions, Hit, Placement, Precision},
     math::Ray,
 };
 
@@ -38,19 +38,14 @@ impl Isa {
 
     /// Whether this machine has the instructions.
     pub fn is_here(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
+        accel::Isa::available().contains(&self.of_kernel())
+    }
+
+    fn of_kernel(self) -> accel::Isa {
         match self {
-            Self::Avx512 => {
-                is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("avx512dq")
-            }
-            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
-            Self::Portable => true,
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            self == Self::Portable
+            Self::Avx512 => accel::Isa::Avx512,
+            Self::Avx2 => accel::Isa::Avx2,
+            Self::Portable => accel::Isa::Portable,
         }
     }
 }
@@ -99,20 +94,15 @@ impl Mode {
     }
 }
 
-/// Meshes as the kernel's builder takes them: made before the clock starts.
+/// A scene as the kernel's builder takes it: meshes are borrowed.
 pub struct Input<'a> {
     scene: &'a Scene,
-    meshes: Vec<Triangles>,
 }
 
 impl<'a> Input<'a> {
     /// Of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        let triangles = scene
-            .meshes
-            .iter()
-            .map(|mesh| Triangles { positions: mesh.positions.clone(), indices: mesh.indices.clone() });
-        Self { scene, meshes: triangles.collect() }
+        Self { scene }
     }
 }
 
@@ -126,18 +116,27 @@ impl Ours {
     ///
     /// # Panics
     /// If the kernel refuses the scene.
-    pub fn build(input: Input<'_>, _preset: Preset, _isa: Option<Isa>, _mode: Mode) -> Self {
-        let mut builder = AccelBuilder::new(BuildOptions::default());
-        let ids: Vec<_> = input
-            .meshes
-            .into_iter()
-            .map(|mesh| builder.triangles(mesh).expect("a mesh that the kernel takes"))
-            .collect();
+    pub fn build(input: Input<'_>, preset: Preset, isa: Option<Isa>, mode: Mode) -> Self {
+        let preset = match preset {
+            Preset::Fast => accel::Preset::Fast,
+            Preset::Balanced => accel::Preset::Balanced,
+            Preset::High => accel::Preset::High,
+        };
+        let precision = match mode {
+            Mode::Robust => Precision::Robust,
+            Mode::Fast => Precision::Fast,
+        };
+        let isa = isa.map(Isa::of_kernel);
+        let mut builder =
+            AccelBuilder::new(BuildOptions { preset, precision, isa, ..BuildOptions::default() });
+        let meshes = input.scene.meshes.iter();
+        let ids = meshes.map(|mesh| builder.borrowed_triangles(&mesh.positions, &mesh.indices));
+        let ids: Vec<_> = ids.map(|id| id.expect("a mesh that the kernel takes")).collect();
         for instance in &input.scene.instances {
             let placement = instance.placed.map_or(Placement::Identity, Placement::Still);
             builder.instance(ids[instance.mesh], placement).expect("a transform that has an inverse");
         }
-        Self { accel: builder.build() }
+        Self { accel: builder.build().expect("instructions that are here, and trees within limits") }
     }
 
     /// Memory that the trees take.
@@ -147,12 +146,12 @@ impl Ours {
 
     #[inline(never)]
     fn closest(&self, ray: &Ray) -> Option<Hit> {
-        self.accel.closest(ray, &NoUserGeometry, &mut NoTraversalProbe, ())
+        self.accel.closest(ray)
     }
 
     #[inline(never)]
     fn any(&self, ray: &Ray) -> bool {
-        self.accel.any(ray, &NoUserGeometry, &mut NoTraversalProbe, ())
+        self.accel.any(ray)
     }
 }
 
