@@ -1,4 +1,7 @@
 //! A ray against all boxes of a node.
+//!
+//! PERF: no closures and no `array::map` with vectors here and in `triangle::lanes`: the compiler may leave them as calls of
+//! functions that lack the features of the walk, ten times slower (bench kernel).
 use crate::{
     lanes::{LaneMask, Lanes},
     layout::BoxNode,
@@ -17,34 +20,44 @@ pub(crate) struct BoxRay<V> {
     u: V,
 }
 
+#[inline(always)]
+fn splat<V: Lanes>(token: V::Token, [x, y, z]: [f32; 3]) -> [V; 3] {
+    [V::splat(token, x), V::splat(token, y), V::splat(token, z)]
+}
+
 impl<V: Lanes> BoxRay<V> {
     #[inline(always)]
     pub(crate) fn new(token: V::Token, slab: &Slab, t_min: f32, u: f32) -> Self {
-        let splat = |x: f32| V::splat(token, x);
         Self {
-            near_r: slab.near_r.map(splat),
-            near_c: slab.near_c.map(splat),
-            far_r: slab.far_r.map(splat),
-            far_c: slab.far_c.map(splat),
+            near_r: splat(token, slab.near_r),
+            near_c: splat(token, slab.near_c),
+            far_r: splat(token, slab.far_r),
+            far_c: splat(token, slab.far_c),
             near_side: slab.near_side,
-            t_min: splat(t_min),
-            u: splat(u),
+            t_min: V::splat(token, t_min),
+            u: V::splat(token, u),
         }
+    }
+
+    #[inline(always)]
+    fn near<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
+        let plane = node.plane(token, axis, self.near_side[axis], self.u);
+        plane.fused(self.near_r[axis], self.near_c[axis])
+    }
+
+    #[inline(always)]
+    fn far<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
+        let plane = node.plane(token, axis, self.near_side[axis] ^ 1, self.u);
+        plane.fused(self.far_r[axis], self.far_c[axis])
     }
 
     /// Bit `i` of the result: the ray enters the box of lane `i` before `t_max`; and where.
     #[inline(always)]
     pub(crate) fn enter<N: BoxNode<V>>(&self, token: V::Token, node: &N, t_max: f32) -> (u32, V) {
-        let near = |axis: usize| {
-            let plane = node.plane(token, axis, self.near_side[axis], self.u);
-            plane.fused(self.near_r[axis], self.near_c[axis])
-        };
-        let far = |axis: usize| {
-            let plane = node.plane(token, axis, self.near_side[axis] ^ 1, self.u);
-            plane.fused(self.far_r[axis], self.far_c[axis])
-        };
-        let entry = near(0).max(near(1)).max(near(2).max(self.t_min));
-        let exit = far(0).min(far(1)).min(far(2).min(V::splat(token, t_max)));
+        let (x, y) = (self.near(token, node, 0), self.near(token, node, 1));
+        let entry = x.max(y).max(self.near(token, node, 2).max(self.t_min));
+        let (x, y) = (self.far(token, node, 0), self.far(token, node, 1));
+        let exit = x.min(y).min(self.far(token, node, 2).min(V::splat(token, t_max)));
         (entry.le(exit).bits(), entry)
     }
 }

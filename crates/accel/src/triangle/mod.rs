@@ -89,8 +89,8 @@ pub struct TriangleHit {
 pub fn intersect(shear: &Shear, triangle: &[Point3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
     let reach = Reach { t_min, t_max, floor: f32::NEG_INFINITY };
     let mut found = Found { t: [0.0], u: [0.0], v: [0.0] };
-    let corner = |vertex: usize, axis: usize| triangle[vertex][shear.axes[axis] as usize];
-    let hit = lanes::test::<f32, true>((), shear, &reach, corner, |_| *triangle, &mut found);
+    let relative = triangle.each_ref().map(|p| shear.relative(p));
+    let hit = lanes::test::<f32, true>((), shear, &reach, &relative, |_| *triangle, &mut found);
     let (u, v) = (found.u[0], found.v[0]);
     (hit != 0).then_some(TriangleHit { t: found.t[0], weights: [1.0 - u - v, u, v] })
 }
