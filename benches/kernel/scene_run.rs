@@ -1,26 +1,22 @@
 //! All cells of one scene.
-use std::process;
+use std::{process, time::Instant};
 
-use anyhow::Context;
 use cpu_time::ProcessTime;
 use durer::math::Ray;
 use durer_benches::{
     embree::{Embree, Quality, Slot},
+    options::Options,
     ours::{Input, Isa, Mode, Ours, Preset},
     pin::pin,
     ratio::Quartiles,
     rays::{Class, Found, Query, RaySet},
+    report::{BuildRow, Cell, Report, Who},
     scene::Scene,
     spawn::spawn,
     turns::{Competitor, Kernel, race},
 };
-use std::time::Instant;
 
-use crate::{
-    obvhs::Obvhs,
-    options::Options,
-    report::{BuildRow, Cell, Report, Who},
-};
+use crate::obvhs::Obvhs;
 
 /// Threads of the cells.
 const THREADS: [usize; 2] = [1, 2];
@@ -65,7 +61,7 @@ impl SceneRun<'_> {
                 .map(|&isa| (isa, Ours::build(Input::new(self.scene), Preset::High, Some(isa), mode)))
                 .collect();
             let others = obvhs.as_ref().filter(|_| mode == Mode::Fast);
-            for set in &sets {
+            for set in sets.iter().filter(|set| !set.rays.is_empty()) {
                 self.cells(mode, set, &ours, others, report)?;
             }
         }
@@ -187,18 +183,4 @@ fn differing_hits(kernel: &dyn Kernel, set: &RaySet, theirs: &[Option<Found>]) -
         _ => true,
     };
     set.rays.iter().zip(theirs).filter(|pair| differs(*pair)).count()
-}
-
-impl Report {
-    /// An empty one, of what the options ask for.
-    pub(crate) fn new(options: &Options) -> anyhow::Result<Self> {
-        options.isas.first().context("this machine has none of the instruction sets asked for")?;
-        Ok(Self {
-            edge: options.edge,
-            runs: options.runs,
-            cells: Vec::new(),
-            builds: Vec::new(),
-            missing: Vec::new(),
-        })
-    }
 }

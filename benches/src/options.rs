@@ -1,35 +1,38 @@
 //! What the command line asks for.
 use std::path::PathBuf;
 
+use crate::{load, ours::Isa};
 use anyhow::{Context, bail};
-use durer_benches::{load, ours::Isa};
 
 /// Choices of a run.
 #[derive(Debug)]
-pub(crate) struct Options {
+pub struct Options {
     /// The program made of `embree_peer.c`.
-    pub(crate) peer: PathBuf,
+    pub peer: PathBuf,
     /// Embree's shared library.
-    pub(crate) embree: PathBuf,
+    pub embree: PathBuf,
     /// Folder of test files.
-    pub(crate) assets: PathBuf,
+    pub assets: PathBuf,
     /// Where files are exchanged.
-    pub(crate) folder: PathBuf,
+    pub folder: PathBuf,
     /// JSON instead of tables.
-    pub(crate) json: bool,
+    pub json: bool,
     /// Pixels along an edge of the picture whose rays are traced.
-    pub(crate) edge: u32,
+    pub edge: u32,
     /// How often everything is timed.
-    pub(crate) runs: usize,
+    pub runs: usize,
     /// Scenes by name.
-    pub(crate) scenes: Vec<String>,
+    pub scenes: Vec<String>,
     /// Instructions that this machine has.
-    pub(crate) isas: Vec<Isa>,
+    pub isas: Vec<Isa>,
 }
 
 impl Options {
     /// From the words behind the program's name.
-    pub(crate) fn parse(words: impl IntoIterator<Item = String>) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// A word that means nothing, or a value that is missing or wrong.
+    pub fn parse(words: impl IntoIterator<Item = String>) -> anyhow::Result<Self> {
         let mut options = Self {
             peer: PathBuf::new(),
             embree: PathBuf::new(),
@@ -81,5 +84,33 @@ fn list(words: &str, is_known: impl Fn(&str) -> bool) -> anyhow::Result<Vec<Stri
     match names.iter().find(|name| !is_known(name)) {
         Some(name) => bail!("nothing is called \"{name}\""),
         None => Ok(names),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(words: &str) -> anyhow::Result<Options> {
+        Options::parse(words.split_whitespace().map(str::to_owned))
+    }
+
+    #[test]
+    fn options_are_read() {
+        let options =
+            parse("--quick --runs 7 --isa portable,avx2 --scenes terrain --json").expect("good options");
+        assert_eq!((options.edge, options.runs, options.json), (256, 7, true));
+        assert_eq!(options.scenes, ["terrain"]);
+        assert_eq!(options.isas.last(), Some(&Isa::Portable));
+        assert!(!options.isas.contains(&Isa::Avx512));
+        let usual = parse("").expect("no options");
+        assert_eq!((usual.edge, usual.runs, usual.scenes.len()), (512, 5, load::names().count()));
+    }
+
+    #[test]
+    fn wrong_options_are_refused() {
+        for words in ["--runs 0", "--runs", "--scenes teapot", "--isa sse", "--fast"] {
+            assert!(parse(words).is_err(), "{words}");
+        }
     }
 }
