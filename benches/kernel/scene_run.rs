@@ -18,8 +18,6 @@ use durer_benches::{
 
 use crate::obvhs::Obvhs;
 
-/// Threads of the cells.
-const THREADS: [usize; 2] = [1, 2];
 /// Threads of builds.
 const BUILD_THREADS: usize = 2;
 /// Most repeats of a build.
@@ -47,11 +45,15 @@ impl SceneRun<'_> {
     /// Times everything; all rows go to `report`.
     pub(crate) fn run(&self, report: &mut Report) -> anyhow::Result<()> {
         self.embree.scene(self.scene)?;
-        self.keep_on(self.cores);
-        self.builds(report)?;
+        if !self.keep_on(self.cores) {
+            eprintln!("processes are not kept on cores: `taskset` is wanted for that");
+        }
+        if self.options.builds {
+            self.builds(report)?;
+        }
         let sets = self.rays()?;
         let obvhs = self.scene.only_mesh().map(Obvhs::build);
-        for mode in Mode::ALL {
+        for &mode in &self.options.modes {
             self.keep_on(self.cores);
             self.embree.build(SLOT, Quality::High, mode, BUILD_THREADS)?;
             let ours: Vec<(Isa, Ours)> = self
@@ -69,10 +71,8 @@ impl SceneRun<'_> {
     }
 
     /// Keeps both processes on some cores, if that can be done.
-    fn keep_on(&self, cores: &[usize]) {
-        for process in [process::id(), self.embree.id()] {
-            pin(process, cores);
-        }
+    fn keep_on(&self, cores: &[usize]) -> bool {
+        [process::id(), self.embree.id()].into_iter().all(|process| pin(process, cores))
     }
 
     /// The rays of all kinds. Embree finds where they arrive, so that a fault of our kernel cannot choose the rays.
@@ -114,7 +114,7 @@ impl SceneRun<'_> {
             competitors.push(kernel);
             differing.push(differing_hits(kernel, set, &theirs));
         }
-        for threads in THREADS.into_iter().filter(|&n| n == 1 || self.cores.len() >= n) {
+        for &threads in self.options.threads.iter().filter(|&&n| n == 1 || self.cores.len() != 1) {
             self.keep_on(&self.cores[..threads.min(self.cores.len())]);
             let times = race(&competitors, set, threads, self.options.runs)?;
             for (index, who) in (1..).zip(&names) {

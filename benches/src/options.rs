@@ -1,7 +1,10 @@
 //! What the command line asks for.
 use std::path::PathBuf;
 
-use crate::{load, ours::Isa};
+use crate::{
+    load,
+    ours::{Isa, Mode},
+};
 use anyhow::{Context, bail};
 
 /// Choices of a run.
@@ -25,6 +28,12 @@ pub struct Options {
     pub scenes: Vec<String>,
     /// Instructions that this machine has.
     pub isas: Vec<Isa>,
+    /// Kinds of kernels.
+    pub modes: Vec<Mode>,
+    /// Numbers of threads, each 1 or 2.
+    pub threads: Vec<usize>,
+    /// Builds are timed too.
+    pub builds: bool,
 }
 
 impl Options {
@@ -43,6 +52,9 @@ impl Options {
             runs: 5,
             scenes: load::names().map(str::to_owned).collect(),
             isas: Isa::ALL.to_vec(),
+            modes: Mode::ALL.to_vec(),
+            threads: vec![1, 2],
+            builds: true,
         };
         let (mut quick, mut runs) = (false, None);
         let mut words = words.into_iter();
@@ -66,6 +78,15 @@ impl Options {
                     let names = list(&value()?, |name| Isa::ALL.iter().any(|isa| isa.name() == name))?;
                     options.isas.retain(|isa| names.iter().any(|name| name == isa.name()));
                 }
+                "--mode" => {
+                    let names = list(&value()?, |name| Mode::ALL.iter().any(|mode| mode.name() == name))?;
+                    options.modes.retain(|mode| names.iter().any(|name| name == mode.name()));
+                }
+                "--threads" => {
+                    let numbers = list(&value()?, |number| ["1", "2"].contains(&number))?;
+                    options.threads.retain(|n| numbers.contains(&n.to_string()));
+                }
+                "--without-builds" => options.builds = false,
                 other => bail!("unknown option \"{other}\"; see `cargo xtask help`"),
             }
         }
@@ -103,13 +124,15 @@ mod tests {
         assert_eq!(options.scenes, ["terrain"]);
         assert_eq!(options.isas.last(), Some(&Isa::Portable));
         assert!(!options.isas.contains(&Isa::Avx512));
+        let less = parse("--mode fast --threads 2 --without-builds").expect("good options");
+        assert_eq!((less.modes, less.threads, less.builds), (vec![Mode::Fast], vec![2], false));
         let usual = parse("").expect("no options");
         assert_eq!((usual.edge, usual.runs, usual.scenes.len()), (512, 5, load::names().count()));
     }
 
     #[test]
     fn wrong_options_are_refused() {
-        for words in ["--runs 0", "--runs", "--scenes teapot", "--isa sse", "--fast"] {
+        for words in ["--runs 0", "--runs", "--scenes teapot", "--isa sse", "--threads 3", "--fast"] {
             assert!(parse(words).is_err(), "{words}");
         }
     }
