@@ -2,15 +2,14 @@
 #![forbid(unsafe_code)]
 
 mod obvhs;
-mod options;
-mod report;
 mod scene_run;
 
 use std::{env, process::ExitCode};
 
-use durer_benches::{embree::Embree, load, pin};
+use anyhow::ensure;
+use durer_benches::{embree::Embree, load, options::Options, pin, report::Report};
 
-use crate::{options::Options, report::Report, scene_run::SceneRun};
+use crate::scene_run::SceneRun;
 
 fn main() -> ExitCode {
     match run() {
@@ -24,7 +23,8 @@ fn main() -> ExitCode {
 
 fn run() -> anyhow::Result<()> {
     let options = Options::parse(env::args().skip(1))?;
-    let mut report = Report::new(&options)?;
+    ensure!(!options.isas.is_empty(), "this machine has none of the instruction sets asked for");
+    let mut report = Report { edge: options.edge, runs: options.runs, ..Report::default() };
     let cores: Vec<usize> = pin::cores().into_iter().take(2).collect();
     let embree = Embree::start(&options.peer, &options.embree, &options.folder)?;
     for name in &options.scenes {

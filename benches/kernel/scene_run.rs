@@ -1,29 +1,23 @@
 //! All cells of one scene.
-use std::process;
+use std::{process, time::Instant};
 
-use anyhow::Context;
 use cpu_time::ProcessTime;
 use durer::math::Ray;
 use durer_benches::{
     embree::{Embree, Quality, Slot},
+    options::Options,
     ours::{Input, Isa, Mode, Ours, Preset},
     pin::pin,
     ratio::Quartiles,
     rays::{Class, Found, Query, RaySet},
+    report::{BuildRow, Cell, Report, Who},
     scene::Scene,
     spawn::spawn,
     turns::{Competitor, Kernel, race},
 };
-use std::time::Instant;
 
-use crate::{
-    obvhs::Obvhs,
-    options::Options,
-    report::{BuildRow, Cell, Report, Who},
-};
+use crate::obvhs::Obvhs;
 
-/// Threads of the cells.
-const THREADS: [usize; 2] = [1, 2];
 /// Threads of builds.
 const BUILD_THREADS: usize = 2;
 /// Most repeats of a build.
@@ -51,11 +45,15 @@ impl SceneRun<'_> {
     /// Times everything; all rows go to `report`.
     pub(crate) fn run(&self, report: &mut Report) -> anyhow::Result<()> {
         self.embree.scene(self.scene)?;
-        self.keep_on(self.cores);
-        self.builds(report)?;
+        if !self.keep_on(self.cores) {
+            eprintln!("processes are not kept on cores: `taskset` is wanted for that");
+        }
+        if self.options.builds {
+            self.builds(report)?;
+        }
         let sets = self.rays()?;
         let obvhs = self.scene.only_mesh().map(Obvhs::build);
-        for mode in Mode::ALL {
+        for &mode in &self.options.modes {
             self.keep_on(self.cores);
             self.embree.build(SLOT, Quality::High, mode, BUILD_THREADS)?;
             let ours: Vec<(Isa, Ours)> = self
@@ -65,7 +63,7 @@ impl SceneRun<'_> {
                 .map(|&isa| (isa, Ours::build(Input::new(self.scene), Preset::High, Some(isa), mode)))
                 .collect();
             let others = obvhs.as_ref().filter(|_| mode == Mode::Fast);
-            for set in &sets {
+            for set in sets.iter().filter(|set| !set.rays.is_empty()) {
                 self.cells(mode, set, &ours, others, report)?;
             }
         }
@@ -73,10 +71,8 @@ impl SceneRun<'_> {
     }
 
     /// Keeps both processes on some cores, if that can be done.
-    fn keep_on(&self, cores: &[usize]) {
-        for process in [process::id(), self.embree.id()] {
-            pin(process, cores);
-        }
+    fn keep_on(&self, cores: &[usize]) -> bool {
+        [process::id(), self.embree.id()].into_iter().all(|process| pin(process, cores))
     }
 
     /// The rays of all kinds. Embree finds where they arrive, so that a fault of our kernel cannot choose the rays.
@@ -118,7 +114,7 @@ impl SceneRun<'_> {
             competitors.push(kernel);
             differing.push(differing_hits(kernel, set, &theirs));
         }
-        for threads in THREADS.into_iter().filter(|&n| n == 1 || self.cores.len() >= n) {
+        for &threads in self.options.threads.iter().filter(|&&n| n == 1 || self.cores.len() != 1) {
             self.keep_on(&self.cores[..threads.min(self.cores.len())]);
             let times = race(&competitors, set, threads, self.options.runs)?;
             for (index, who) in (1..).zip(&names) {
@@ -187,18 +183,4 @@ fn differing_hits(kernel: &dyn Kernel, set: &RaySet, theirs: &[Option<Found>]) -
         _ => true,
     };
     set.rays.iter().zip(theirs).filter(|pair| differs(*pair)).count()
-}
-
-impl Report {
-    /// An empty one, of what the options ask for.
-    pub(crate) fn new(options: &Options) -> anyhow::Result<Self> {
-        options.isas.first().context("this machine has none of the instruction sets asked for")?;
-        Ok(Self {
-            edge: options.edge,
-            runs: options.runs,
-            cells: Vec::new(),
-            builds: Vec::new(),
-            missing: Vec::new(),
-        })
-    }
 }

@@ -5,10 +5,12 @@
 
 pub mod embree;
 pub mod load;
+pub mod options;
 pub mod ours;
 pub mod pin;
 pub mod ratio;
 pub mod rays;
+pub mod report;
 pub mod scene;
 pub mod spawn;
 pub mod terrain;

@@ -41,4 +41,15 @@ mod tests {
         assert!(parse("").is_empty());
         assert!(!pin(std::process::id(), &[]));
     }
+
+    #[test]
+    fn a_process_is_kept_on_a_core() {
+        let Some(&core) = cores().last() else { return };
+        let mut child = Command::new("sleep").arg("60").spawn().expect("sleep");
+        let pinned = pin(child.id(), &[core]);
+        let path = format!("/proc/{}/status", child.id());
+        let status = fs::read_to_string(path).expect("a process that runs");
+        child.kill().and_then(|()| child.wait()).expect("our own child");
+        assert!(!pinned || status.contains(&format!("Cpus_allowed_list:\t{core}\n")), "{status}");
+    }
 }

@@ -31,7 +31,8 @@ Tasks of the durer project.
       Traces the same rays with our kernel, Embree 4 and obvhs in turns and prints how much faster ours is, with --json as
       JSON (docs/benchmarks.md). Puts Embree, from the Python package embreex, into target/bench/; skips where that
       or a C compiler cannot be had. --quick traces a quarter of the rays 3 times instead of 5. Scenes: atrium,
-      sponza, sphere8, dragon, buddha (of the test files) and terrain (generated).
+      sponza, sphere8, dragon, buddha (of the test files) and terrain (generated). To measure less:
+      --mode fast or robust, --threads 1 or 2, --without-builds.
 
   cargo xtask assets [--folder F] [--formats gltf,obj,ply,stl] [--width 320]
       Opens and renders every model of these formats in the folder of test files (F, else the assets/ in DURER_SHARED,

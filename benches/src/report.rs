@@ -1,7 +1,7 @@
 //! The figures as tables or as JSON.
 use std::fmt::Write;
 
-use durer_benches::{
+use crate::{
     embree::Quality,
     ours::{Isa, Mode, Preset},
     ratio::{Quartiles, geometric_mean},
@@ -11,8 +11,10 @@ use serde_json::{Value, json};
 
 /// Who is compared with Embree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Who {
+pub enum Who {
+    /// Our kernel.
     Ours(Isa),
+    /// The crate of that name.
     Obvhs,
 }
 
@@ -38,42 +40,64 @@ impl Who {
 const WANTED_ANYWHERE: [f64; 4] = [1.1, 1.1, 1.05, 1.1];
 
 /// Rays of a kind in a scene.
-pub(crate) struct Cell {
-    pub(crate) scene: String,
-    pub(crate) class: Class,
-    pub(crate) who: Who,
-    pub(crate) threads: usize,
-    pub(crate) mode: Mode,
+pub struct Cell {
+    /// Its name.
+    pub scene: String,
+    /// The kind.
+    pub class: Class,
+    /// Who traced them.
+    pub who: Who,
+    /// Chunks at a time.
+    pub threads: usize,
+    /// Of the kernels.
+    pub mode: Mode,
     /// Rays per second by those of Embree.
-    pub(crate) ratio: Quartiles,
-    pub(crate) rays_per_second: f64,
-    pub(crate) embree_rays_per_second: f64,
-    pub(crate) rays: usize,
-    pub(crate) differing_hits: usize,
+    pub ratio: Quartiles,
+    /// By processor time, all runs together.
+    pub rays_per_second: f64,
+    /// The same of Embree.
+    pub embree_rays_per_second: f64,
+    /// How many there are.
+    pub rays: usize,
+    /// How many of them have another result than with Embree.
+    pub differing_hits: usize,
 }
 
 /// Builds of a scene. Ratios are of triangles per second, ours by Embree's.
-pub(crate) struct BuildRow {
-    pub(crate) scene: String,
-    pub(crate) preset: Preset,
-    pub(crate) quality: Quality,
-    pub(crate) ratio: f64,
-    /// By processor time instead of the clock on the wall.
-    pub(crate) ratio_cpu: f64,
-    pub(crate) triangles_per_second: f64,
-    pub(crate) embree_triangles_per_second: f64,
-    pub(crate) bytes_per_triangle: f64,
-    pub(crate) embree_bytes_per_triangle: f64,
+pub struct BuildRow {
+    /// Its name.
+    pub scene: String,
+    /// Ours.
+    pub preset: Preset,
+    /// Embree's.
+    pub quality: Quality,
+    /// Median over runs, by the clock on the wall.
+    pub ratio: f64,
+    /// By processor time.
+    pub ratio_cpu: f64,
+    /// Of the fastest run.
+    pub triangles_per_second: f64,
+    /// The same of Embree.
+    pub embree_triangles_per_second: f64,
+    /// Memory held.
+    pub bytes_per_triangle: f64,
+    /// The same of Embree.
+    pub embree_bytes_per_triangle: f64,
 }
 
 /// All that was measured.
-pub(crate) struct Report {
-    pub(crate) edge: u32,
-    pub(crate) runs: usize,
-    pub(crate) cells: Vec<Cell>,
-    pub(crate) builds: Vec<BuildRow>,
+#[derive(Default)]
+pub struct Report {
+    /// Pixels along an edge of the picture.
+    pub edge: u32,
+    /// How often everything was timed.
+    pub runs: usize,
+    /// In the order they were measured.
+    pub cells: Vec<Cell>,
+    /// The same.
+    pub builds: Vec<BuildRow>,
     /// Scenes whose files are not there.
-    pub(crate) missing: Vec<String>,
+    pub missing: Vec<String>,
 }
 
 /// Cells of which a mean over scenes is taken.
@@ -108,7 +132,7 @@ impl Report {
     }
 
     /// For people.
-    pub(crate) fn as_tables(&self) -> String {
+    pub fn as_tables(&self) -> String {
         let mut text = String::new();
         for group in self.groups() {
             self.table(group, &mut text);
@@ -190,7 +214,7 @@ impl Report {
     }
 
     /// For programs. `docs/benchmarks.md` says what the keys mean.
-    pub(crate) fn as_value(&self) -> Value {
+    pub fn as_value(&self) -> Value {
         let (obvhs, ours): (Vec<&Cell>, Vec<&Cell>) =
             self.cells.iter().partition(|cell| cell.who == Who::Obvhs);
         let cells = |cells: &[&Cell]| cells.iter().map(|cell| cell_value(cell)).collect::<Vec<_>>();
@@ -231,4 +255,67 @@ fn build_value(row: &BuildRow) -> Value {
         "mtriangles_per_second": row.triangles_per_second * 1e-6,
         "embree_mtriangles_per_second": row.embree_triangles_per_second * 1e-6,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cell(scene: &str, who: Who, ratio: f64) -> Cell {
+        Cell {
+            scene: scene.to_owned(),
+            class: Class::Diffuse1,
+            who,
+            threads: 2,
+            mode: Mode::Robust,
+            ratio: Quartiles { q1: ratio - 0.1, median: ratio, q3: ratio + 0.1 },
+            rays_per_second: ratio * 2e6,
+            embree_rays_per_second: 2e6,
+            rays: 1000,
+            differing_hits: 3,
+        }
+    }
+
+    fn report() -> Report {
+        let who = Who::Ours(Isa::Avx2);
+        let cells = vec![cell("hall", who, 1.0), cell("hall", Who::Obvhs, 0.5), cell("ball", who, 1.44)];
+        let build = BuildRow {
+            scene: "hall".to_owned(),
+            preset: Preset::High,
+            quality: Quality::High,
+            ratio: 1.5,
+            ratio_cpu: 1.25,
+            triangles_per_second: 3e6,
+            embree_triangles_per_second: 2e6,
+            bytes_per_triangle: 70.0,
+            embree_bytes_per_triangle: 80.0,
+        };
+        Report { cells, builds: vec![build], missing: vec!["cave".to_owned()], ..Report::default() }
+    }
+
+    #[test]
+    fn programs_find_cells_means_and_builds() {
+        let value = report().as_value();
+        let cells = value["cells"].as_array().expect("a list");
+        assert_eq!(cells.len(), 2);
+        assert_eq!((&cells[1]["scene"], &cells[1]["isa"]), (&json!("ball"), &json!("avx2")));
+        assert_eq!((&cells[1]["mode"], &cells[1]["threads"]), (&json!("robust"), &json!(2)));
+        assert_eq!(cells[0]["mrays_per_second"], 2.0);
+        assert_eq!(value["obvhs"][0]["ratio_median"], 0.5);
+        let means = value["geometric_means"].as_array().expect("a list");
+        let mean = means.iter().find(|mean| mean["class"] == "diffuse1" && mean["isa"] == "avx2");
+        let mean = mean.expect("a mean of what was measured");
+        assert!((mean["ratio"].as_f64().expect("a number") - 1.2).abs() < 1e-9 && mean["wanted"] == 1.15);
+        assert_eq!(value["build"][0]["embree_quality"], "high");
+        assert_eq!(value["missing_scenes"][0], "cave");
+    }
+
+    #[test]
+    fn people_see_what_is_below_and_what_is_reached() {
+        let tables = report().as_tables();
+        assert!(tables.contains("avx2, robust, 2 threads"), "{tables}");
+        assert!(tables.contains("!1.00 (0.90..1.10)") && tables.contains(" 1.44 (1.34..1.54)"), "{tables}");
+        assert!(tables.contains(" reached 1.15") && tables.contains("cave was left out"), "{tables}");
+        assert!(!tables.contains("!0.50"), "{tables}");
+    }
 }
