@@ -16,10 +16,12 @@
 
 mod accel;
 mod build;
+pub mod curve;
 mod error;
 mod geometry;
 mod hit;
 mod placement;
+pub mod point;
 mod probe;
 mod slab;
 mod space;

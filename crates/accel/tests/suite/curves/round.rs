@@ -1,0 +1,190 @@
+//! Round curves: cylinders and cones in closed form, any cubic against traced spheres.
+use durer_accel::curve::{CurveBasis, CurveKind, Curves};
+use durer_core::math::{Point3, Ray, Vector3};
+
+use super::{intersect, invented, oracle, straight, towards};
+use crate::corpus::{Random, ray_count};
+
+fn close(a: f32, b: f32) -> bool {
+    (a - b).abs() <= 3e-7 * b.abs().max(1.0)
+}
+
+#[test]
+fn a_straight_curve_is_a_cylinder_with_half_balls() {
+    let curves = straight(CurveKind::Round, [-3.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.5, 0.5]);
+    for i in -9..=9 {
+        let y = 0.05 * i as f32;
+        let ray = Ray::new(Point3::new(1.0, y, 4.0), Vector3::new(0.0, 0.0, -2.0));
+        let hit = intersect(&curves, &ray).expect("a hit");
+        let depth = (0.25 - y * y).sqrt();
+        assert!(close(hit.t, (4.0 - depth) / 2.0), "{hit:?}");
+        assert!(close(hit.u, 0.5), "{hit:?}");
+        // Direction times curve, -z times x, is -y.
+        assert!(close(hit.v, -y / 0.5), "{hit:?}");
+        assert!((hit.n_g - Vector3::new(0.0, y, depth) * 2.0).length() < 1e-6, "{hit:?}");
+        let far = intersect(&curves, &Ray { t_min: hit.t.next_up(), ..ray }).expect("the way out");
+        assert!(close(far.t, (4.0 + depth) / 2.0), "{far:?}");
+        let inside = Ray { o: Point3::new(1.0, y, 0.0), ..ray };
+        assert!(close(intersect(&curves, &inside).expect("the way out").t, depth / 2.0));
+        // Along the axis: through both ends.
+        let along = Ray::new(Point3::new(-5.0, y, 0.0), Vector3::new(1.0, 0.0, 0.0));
+        let end = intersect(&curves, &along).expect("the end");
+        assert!(close(end.t, 2.0 - depth) && end.u == 0.0, "{end:?}");
+        let out = intersect(&curves, &Ray { t_min: 3.0, ..along }).expect("the other end");
+        assert!(close(out.t, 10.0 + depth) && out.u == 1.0, "{out:?}");
+    }
+    let beside = Ray::new(Point3::new(1.0, 0.500_001, 4.0), Vector3::new(0.0, 0.0, -2.0));
+    assert_eq!(intersect(&curves, &beside), None);
+}
+
+#[test]
+fn a_linear_radius_makes_the_cone_that_touches_both_balls() {
+    // Half angle alpha with sin alpha = k: at x the surface is (r0 + k x) / cos alpha from the axis.
+    let curves = straight(CurveKind::Round, [0.0; 3], [4.0, 0.0, 0.0], [1.5, 0.5]);
+    let k = -0.25f32;
+    let cosine = (1.0 - k * k).sqrt();
+    for i in 4..15 {
+        let x = 0.25 * i as f32;
+        let ray = Ray::new(Point3::new(x, 0.0, 3.0), Vector3::new(0.0, 0.0, -1.0));
+        let hit = intersect(&curves, &ray).expect("a hit");
+        let surface = (1.5 + k * x) / cosine;
+        assert!(close(hit.t, 3.0 - surface), "{hit:?} {surface}");
+        assert!((hit.n_g - Vector3::new(-k, 0.0, cosine)).length() < 1e-6, "{hit:?}");
+    }
+}
+
+#[test]
+fn a_ball_inside_another_does_not_show() {
+    let curves = straight(CurveKind::Round, [0.0; 3], [0.2, 0.0, 0.0], [1.0, 0.5]);
+    let ray = Ray::new(Point3::new(3.0, 0.0, 0.0), Vector3::new(-1.0, 0.0, 0.0));
+    assert!(close(intersect(&curves, &ray).expect("the larger ball").t, 2.0));
+    let point = straight(CurveKind::Round, [0.0; 3], [0.0; 3], [1.0, 1.0]);
+    assert!(close(intersect(&point, &ray).expect("all in one place").t, 2.0));
+    let nothing = straight(CurveKind::Round, [0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0]);
+    assert_eq!(intersect(&nothing, &ray), None);
+    // All balls touch one another where the ray enters: any of them may be named.
+    let nested = straight(CurveKind::Round, [0.0; 3], [1.0, 0.0, 0.0], [2.0, 1.0]);
+    assert!(close(intersect(&nested, &ray).expect("where all touch").t, 1.0));
+}
+
+#[test]
+fn random_cubics_agree_with_traced_spheres() {
+    let mut random = Random(21);
+    let (mut hits, mut inside) = (0, 0);
+    for i in 0..ray_count(1500).min(30_000) {
+        let thickness = [0.5, 0.1, 0.01, 0.001][i % 4];
+        let curves = invented(&mut random, CurveKind::Round, Vector3::ZERO, 1.0, thickness);
+        let mut ray = towards(&mut random, &curves, 0, 1.0);
+        if i % 5 == 0 {
+            ray.o = Point3::from_f64(oracle::at(&curves, 0, random.unit().into()).0);
+            inside += 1;
+        }
+        let hit = intersect(&curves, &ray);
+        hits += usize::from(hit.is_some());
+        oracle::assert_round(&curves, 0, &ray, hit);
+    }
+    assert!(hits > 700 && inside > 200, "{hits} {inside}");
+}
+
+#[test]
+fn random_cubics_agree_at_every_scale_and_place() {
+    let mut random = Random(22);
+    let mut hits = 0;
+    for i in 0..600 {
+        let size = [1e-4, 1e-2, 1e3, 1e6][i % 4];
+        let center = random.direction() * [0.0, 10.0, 1000.0][i % 3] * size;
+        let curves = invented(&mut random, CurveKind::Round, center, size, 0.2);
+        let ray = towards(&mut random, &curves, 0, size);
+        let hit = intersect(&curves, &ray);
+        hits += usize::from(hit.is_some());
+        oracle::assert_round(&curves, 0, &ray, hit);
+    }
+    assert!(hits > 300, "{hits}");
+}
+
+#[test]
+fn rays_along_thin_strands_agree() {
+    let mut random = Random(23);
+    for _ in 0..300 {
+        let mut curves = invented(&mut random, CurveKind::Round, Vector3::ZERO, 1.0, 0.02);
+        // Nearly straight along x, then looked at along x.
+        for (i, p) in curves.points.iter_mut().enumerate() {
+            *p = Point3::new(i as f32, 0.01 * p.y, 0.01 * p.z);
+        }
+        let o = Point3::new(-1.0, random.between(-0.02, 0.02), random.between(-0.02, 0.02));
+        let ray = Ray::new(o, Vector3::new(1.0, random.between(-0.01, 0.01), random.between(-0.01, 0.01)));
+        oracle::assert_round(&curves, 0, &ray, intersect(&curves, &ray));
+    }
+}
+
+/// A strand of B-spline segments that winds, with radii of its own.
+fn chain(random: &mut Random, basis: CurveBasis, radius: f32) -> Curves {
+    let points: Vec<Point3> =
+        (0..13).map(|i| Point3::new(0.5 * i as f32, 0.0, 0.0) + random.direction() * 0.3).collect();
+    let segments = match basis {
+        CurveBasis::Bezier => vec![0, 3, 6, 9],
+        _ => (0..10).collect(),
+    };
+    let radii = points.iter().map(|_| radius * random.between(0.5, 1.5)).collect();
+    Curves { kind: CurveKind::Round, basis, points, radii, normals: Vec::new(), segments }
+}
+
+#[test]
+fn no_ray_passes_between_the_segments_of_a_chain() {
+    let mut random = Random(24);
+    for i in 0..ray_count(20_000).min(200_000) {
+        let basis = super::BASES[i % 4];
+        let curves = chain(&mut random, basis, [0.1, 0.01, 1e-3][i % 3]);
+        let joint = 1 + random.below(curves.segments.len() - 1) as u32;
+        let (c, r) = oracle::at(&curves, joint, 0.0);
+        let heading = oracle::heading(&curves, joint, 0.0).normalize();
+        // Almost in the plane between both, up to the rim.
+        let across = heading.cross(random.direction().to_f64()).normalize();
+        let aim = c + across * (f64::from(random.between(0.0, 0.999)) * r);
+        let d = across.cross(heading) + heading * f64::from(random.between(-1e-3, 1e-3));
+        let ray = Ray::new(Point3::from_f64(aim - d * 3.0), Vector3::from_f64(d));
+        let hit = |s: u32| curves.intersect(s, &ray, f32::INFINITY).is_some();
+        assert!(hit(joint) || hit(joint - 1), "{curves:?} {joint} {ray:?}");
+    }
+}
+
+#[test]
+fn a_ray_that_leaves_the_surface_does_not_meet_it_where_it_starts() {
+    let mut random = Random(25);
+    let mut starts = 0;
+    for i in 0..4000 {
+        let size = [1.0, 1e-3, 1e4][i % 3];
+        let center = random.direction() * ([0.0, 3.0][i % 2] * size);
+        let curves = invented(&mut random, CurveKind::Round, center, size, [0.3, 0.05][i % 2]);
+        let ray = towards(&mut random, &curves, 0, size);
+        let Some(hit) = intersect(&curves, &ray) else { continue };
+        let (c, r) = oracle::at(&curves, 0, hit.u.into());
+        let o = Point3::from_f64(c + hit.n_g.to_f64() * r);
+        let d = random.direction();
+        let cosine = d.dot(hit.n_g);
+        if cosine.abs() < 0.1 {
+            continue;
+        }
+        starts += 1;
+        // The nearest other place, wherever the curve bends, is further than noise.
+        let least = 1e-3 * r * f64::from(cosine.abs());
+        if let Some(again) = intersect(&curves, &Ray::new(o, d)) {
+            assert!(f64::from(again.t) > least, "{curves:?} from {o:?} along {d:?}: {again:?}");
+        } else {
+            assert!(cosine > 0.0, "{curves:?} from {o:?} along {d:?} into nothing");
+        }
+    }
+    assert!(starts > 1000, "{starts}");
+}
+
+#[test]
+fn a_tapered_end_is_hit_up_to_its_tip() {
+    let curves = straight(CurveKind::Round, [0.0; 3], [1.0, 0.0, 0.0], [0.1, 0.0]);
+    for i in 1..40 {
+        let x = 1.0 - 0.5f32.powi(i.min(20));
+        let ray = Ray::new(Point3::new(x, 0.0, 1.0), Vector3::new(0.0, 0.0, -1.0));
+        let hit = intersect(&curves, &ray).expect("up to the tip");
+        let surface = 0.1 * (1.0 - x) / 0.99f32.sqrt();
+        assert!((hit.t - (1.0 - surface)).abs() < 1e-7, "{hit:?}");
+    }
+}
