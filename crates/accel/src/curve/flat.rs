@@ -33,7 +33,7 @@ pub(super) fn intersect(strand: &Strand, frame: &RayFrame, t_max: f32) -> Option
         let center = strand.center(s);
         let from_center = DVec3::new(-center.x, -center.y, 0.0);
         let n_g = frame.turn_back(-DVec3::Z);
-        CurveHit { t, u: s as f32, v: strand.side(s, from_center, strand.r.at(s)), n_g }
+        CurveHit { t, u: strand.along(s) as f32, v: strand.side(s, from_center, strand.r.at(s)), n_g }
     })
 }
 

@@ -14,6 +14,7 @@ mod bracket;
 mod check;
 mod error;
 mod flat;
+mod joint;
 mod lowest;
 mod oriented;
 mod ray_frame;
@@ -35,8 +36,8 @@ use strand::Strand;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CurveKind {
     /// The solid union of the balls around all points of the curve: a tube with half balls at both ends. A ray that
-    /// starts inside meets the surface on its way out. Every segment is a solid of its own: inside a chain a ray meets
-    /// the ends of the segments it is in, which from outside are never seen.
+    /// starts inside meets the surface on its way out. Segments that follow one another in [`Curves::segments`], the first
+    /// ending with the ball that the second begins with, are one solid without walls between them, as long as the strand runs through itself at its joints only.
     Round,
     /// A ribbon, twice the radius wide, that faces every ray; its ends are cut straight. Hits no more than two radii away
     /// from the ray's origin do not count, because a ribbon that turns with the ray passes through almost any point of
@@ -103,12 +104,9 @@ impl Curves {
     /// # Panics
     /// As that does.
     pub fn intersect_in(&self, frame: &RayFrame, segment: u32, t_max: f32) -> Option<CurveHit> {
-        let strand = Strand::new(self, segment, frame);
-        if !strand.may_be_hit(frame, t_max) {
-            return None;
-        }
+        let strand = Strand::near(self, segment, frame, t_max)?;
         match self.kind {
-            CurveKind::Round => round::intersect(&strand, frame, t_max),
+            CurveKind::Round => round::intersect(self, segment, &strand, frame, t_max),
             CurveKind::Flat => flat::intersect(&strand, frame, t_max),
             CurveKind::Oriented => oriented::intersect(self, segment, &strand, frame, t_max),
         }

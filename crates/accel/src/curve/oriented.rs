@@ -39,7 +39,7 @@ pub(super) fn intersect(
     frame: &RayFrame,
     t_max: f32,
 ) -> Option<CurveHit> {
-    let n = curves.bezier_normals(segment, |n| frame.turn(n)).map(Bernstein);
+    let n = curves.bezier_normals(segment, |n| frame.turn(n)).map(|n| strand.same_part(&Bernstein(n)));
     let ribbon = Turning { strand, n };
     let roots = ribbon.polynomial().roots();
     let at_ends = [0.0, 1.0].into_iter().filter(|s| ribbon.is_on_edge(*s));
@@ -127,6 +127,6 @@ impl Turning<'_> {
         // Which of both sides is the front does not depend on the ray.
         let n_g = if n_g.dot(self.normal(s)) < 0.0 { -n_g } else { n_g };
         let v = (w / self.strand.r.at(s)).clamp(-1.0, 1.0) as f32;
-        CurveHit { t, u: s as f32, v, n_g: frame.turn_back(n_g) }
+        CurveHit { t, u: self.strand.along(s) as f32, v, n_g: frame.turn_back(n_g) }
     }
 }

@@ -8,12 +8,14 @@
 //! is the view of Hart 2024, "Modeling Hair Strands with Roving Capsules"; the swept circles of others (Reshetov and
 //! Luebke 2018, "Phantom Ray-Hair Intersector") make the same tube but fold over in tight bends and end in open edges.
 //!
-//! Both ends are half balls, so segments that share a point and a radius overlap in a ball and leave no gap.
+//! Both ends are half balls, so segments that share a point and a radius overlap in a ball and leave no gap; what of
+//! them is inside the chain is left out ([`super::joint`]).
 use durer_core::glam::DVec3;
 
 use super::{
-    CurveHit,
+    CurveHit, Curves,
     bernstein::Bernstein,
+    joint::is_inside_neighbour,
     lowest::{half_chord_squared, lowest},
     ray_frame::RayFrame,
     strand::Strand,
@@ -39,14 +41,14 @@ struct Stretch {
 }
 
 /// The spans of `[0, 1]` in which the ray meets the balls.
-struct Spans {
+pub(super) struct Spans {
     ends: [(f64, f64); MOST_SPANS],
     count: usize,
 }
 
 impl Spans {
     /// Where the radius is 0, `g` is not positive: no span holds radii of both signs.
-    fn new(g: &Bernstein<7>, r: &Bernstein<4>) -> Self {
+    pub(super) fn new(g: &Bernstein<7>, r: &Bernstein<4>) -> Self {
         let mut spans = Self { ends: [(0.0, 0.0); MOST_SPANS], count: 0 };
         let roots = g.roots();
         let mut lo = 0.0;
@@ -60,20 +62,29 @@ impl Spans {
         }
         spans
     }
-    fn as_slice(&self) -> &[(f64, f64)] {
+    pub(super) fn as_slice(&self) -> &[(f64, f64)] {
         &self.ends[..self.count]
     }
 }
 
 /// The nearest crossing with a parameter in `[t_min, t_max]`, into or out of the solid.
-pub(super) fn intersect(strand: &Strand, frame: &RayFrame, t_max: f32) -> Option<CurveHit> {
+pub(super) fn intersect(
+    curves: &Curves,
+    segment: u32,
+    strand: &Strand,
+    frame: &RayFrame,
+    t_max: f32,
+) -> Option<CurveHit> {
     let square = |c: &Bernstein<4>| -> Bernstein<7> { c.times(c) };
     let g = square(&strand.r).plus(-1.0, &square(&strand.x)).plus(-1.0, &square(&strand.y));
     if g.max() <= 0.0 {
         return None;
     }
     let spans = Spans::new(&g, &strand.r);
-    let hit = |c: Crossing| c.t_ahead(strand, frame).map(|t| (t, c));
+    let hit = |c: Crossing| {
+        let t = c.t_ahead(strand, frame)?;
+        (!is_inside_neighbour(curves, segment, frame, c.z)).then_some((t, c))
+    };
     let first = spans
         .as_slice()
         .iter()
@@ -142,7 +153,7 @@ impl Crossing {
         let from_center = DVec3::new(-center.x, -center.y, self.depth);
         CurveHit {
             t,
-            u: self.s as f32,
+            u: strand.along(self.s) as f32,
             v: strand.side(self.s, from_center, strand.r.at(self.s)),
             n_g: frame.turn_back(from_center.normalize()),
         }

@@ -7,7 +7,12 @@ use super::{
     ray_frame::RayFrame,
 };
 
-/// A segment in the frame of a ray.
+/// How often a strand is clipped. Each time a thin one shrinks to little more than what the ray passes.
+const CLIPS: u32 = 3;
+/// Kept at both ends of a clipped strand as a fraction of its length, against rounding.
+const MARGIN: f64 = 1e-6;
+
+/// A segment, or the part of it near the ray, in the frame of the ray. Its parameter `s` runs from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strand {
     pub(super) x: Cubic,
@@ -17,21 +22,60 @@ pub(super) struct Strand {
     pub(super) r: Cubic,
     /// Bound on the error of each coordinate.
     pub(super) own_error: f64,
+    /// The segment's parameter at both ends.
+    ends: (f64, f64),
 }
 
 impl Strand {
-    pub(super) fn new(curves: &Curves, segment: u32, frame: &RayFrame) -> Self {
+    /// `None` if the ray comes nowhere near enough, sideways and along it, to meet a ball around a point of the curve.
+    pub(super) fn near(curves: &Curves, segment: u32, frame: &RayFrame, t_max: f32) -> Option<Self> {
         let [x, y, z] = curves.bezier_points(segment, |p| frame.project(p));
         let reach = [x, y, z].iter().flatten().fold(0f64, |a, b| a.max(b.abs()));
-        let r = Bernstein(curves.bezier_radii(segment));
-        Self { x: Bernstein(x), y: Bernstein(y), z: Bernstein(z), r, own_error: RayFrame::own_error(reach) }
+        let mut strand = Self {
+            x: Bernstein(x),
+            y: Bernstein(y),
+            z: Bernstein(z),
+            r: Bernstein(curves.bezier_radii(segment)),
+            own_error: RayFrame::own_error(reach),
+            ends: (0.0, 1.0),
+        };
+        for _ in 0..CLIPS {
+            let r = strand.r.max();
+            if !frame.overlaps(strand.z.min() - r, strand.z.max() + r, t_max) {
+                return None;
+            }
+            let (lo, hi) = strand.band()?;
+            if hi - lo > 0.5 {
+                break;
+            }
+            strand = strand.part(lo, hi);
+        }
+        Some(strand)
     }
 
-    /// Whether the ray comes near enough, sideways and along it, to meet a ball around any point of the curve.
-    pub(super) fn may_be_hit(&self, frame: &RayFrame, t_max: f32) -> bool {
-        let r = self.r.max();
-        let across = |c: &Cubic| c.min() <= r && c.max() >= -r;
-        across(&self.x) && across(&self.y) && frame.overlaps(self.z.min() - r, self.z.max() + r, t_max)
+    /// The ends of all that can be hit: where the hulls of x and of y come within the largest radius.
+    fn band(&self) -> Option<(f64, f64)> {
+        let r = self.r.max() + self.own_error;
+        let ((x_lo, x_hi), (y_lo, y_hi)) = (within(&self.x, r), within(&self.y, r));
+        let (lo, hi) = (x_lo.max(y_lo) - MARGIN, x_hi.min(y_hi) + MARGIN);
+        (lo <= hi).then(|| (lo.max(0.0), hi.min(1.0)))
+    }
+
+    fn part(&self, lo: f64, hi: f64) -> Self {
+        let (x, y, z, r) =
+            (self.x.part(lo, hi), self.y.part(lo, hi), self.z.part(lo, hi), self.r.part(lo, hi));
+        Self { x, y, z, r, ends: (self.along(lo), self.along(hi)), ..*self }
+    }
+
+    /// Of another cubic of the segment the part that this is.
+    pub(super) fn same_part(&self, whole: &Cubic) -> Cubic {
+        whole.part(self.ends.0, self.ends.1)
+    }
+
+    /// The segment's parameter at `s`.
+    pub(super) fn along(&self, s: f64) -> f64 {
+        let (from, to) = self.ends;
+        from * (1.0 - s) + to * s
     }
 
     /// The same seen by the ray that runs the other way.
@@ -69,4 +113,26 @@ impl Strand {
         let v = across / (length * r);
         if v.is_finite() { v.clamp(-1.0, 1.0) as f32 } else { 0.0 }
     }
+}
+
+/// Between which parameters the convex hull of the control polygon has values in `[-r, r]`: a larger and a smaller
+/// number if nowhere.
+fn within(c: &Cubic, r: f64) -> (f64, f64) {
+    let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut include = |s: f64| (lo, hi) = (lo.min(s), hi.max(s));
+    for i in 0..4 {
+        let (a, at_a) = (c.0[i], i as f64 / 3.0);
+        if a.abs() <= r {
+            include(at_a);
+        }
+        for j in i + 1..4 {
+            let (b, step) = (c.0[j], (j - i) as f64 / 3.0);
+            for level in [-r, r] {
+                if (a < level) != (b < level) {
+                    include(at_a + step * ((level - a) / (b - a)));
+                }
+            }
+        }
+    }
+    (lo, hi)
 }
