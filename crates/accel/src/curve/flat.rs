@@ -32,7 +32,10 @@ pub(super) fn intersect(strand: &Strand, frame: &RayFrame, t_max: f32) -> Option
     (t <= t_max).then(|| {
         let center = strand.center(s);
         let from_center = DVec3::new(-center.x, -center.y, 0.0);
-        let n_g = frame.turn_back(-DVec3::Z);
+        let heading = strand.heading(s);
+        // What of the way back is perpendicular to the curve: the lines across make a surface with that normal.
+        let n = heading * (heading.z / heading.length_squared()) - DVec3::Z;
+        let n_g = frame.turn_back(n.try_normalize().unwrap_or(-DVec3::Z));
         CurveHit { t, u: strand.along(s) as f32, v: strand.side(s, from_center, strand.r.at(s)), n_g }
     })
 }

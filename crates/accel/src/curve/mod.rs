@@ -20,6 +20,7 @@ mod oriented;
 mod ray_frame;
 mod round;
 mod strand;
+mod surface;
 
 use durer_core::{
     glam::DVec3,
@@ -29,6 +30,7 @@ use durer_core::{
 pub use basis::CurveBasis;
 pub use error::CurveError;
 pub use ray_frame::RayFrame;
+pub use surface::CurveSurface;
 
 use strand::Strand;
 
@@ -76,8 +78,8 @@ pub struct CurveHit {
     /// side of the ray's direction times the curve's; what hair scattering calls `h`. Oriented curves: positive on the
     /// side of the normal times the curve's direction.
     pub v: f32,
-    /// Unit normal of the surface. Round: out of the solid. Flat: against the ray. Oriented: on the side of the given
-    /// normals.
+    /// Unit normal of the surface. Round: out of the solid. Flat: towards the ray's origin, as far as a perpendicular of
+    /// the curve can be. Oriented: on the side of the given normals.
     pub n_g: Vector3,
 }
 

@@ -86,22 +86,9 @@ impl Strand {
     pub(super) fn center(&self, s: f64) -> DVec3 {
         DVec3::new(self.x.at(s), self.y.at(s), self.z.at(s))
     }
-    /// Derivative of the centre by `s`.
-    pub(super) fn velocity(&self, s: f64) -> DVec3 {
-        DVec3::new(self.x.with_slope(s).1, self.y.with_slope(s).1, self.z.with_slope(s).1)
-    }
-    /// Where the curve runs to at `s`, not to scale: the derivative, or where it vanishes at an end the direction in
-    /// which the end is left.
+    /// [`heading`] of the strand.
     pub(super) fn heading(&self, s: f64) -> DVec3 {
-        let velocity = self.velocity(s);
-        if velocity != DVec3::ZERO {
-            return velocity;
-        }
-        let control = |i: usize| DVec3::new(self.x.0[i], self.y.0[i], self.z.0[i]);
-        let away = |from: usize, to: usize| Some(control(to) - control(from)).filter(|d| *d != DVec3::ZERO);
-        let ahead = away(0, 2).or_else(|| away(0, 3));
-        let behind = away(1, 3).or_else(|| away(0, 3));
-        if s < 0.5 { ahead } else { behind }.unwrap_or(DVec3::ZERO)
+        heading(&[self.x, self.y, self.z], s)
     }
 
     /// On which side of the curve a point at `from_center` lies, as a fraction of the radius in `[-1, 1]`: positive on
@@ -113,6 +100,20 @@ impl Strand {
         let v = across / (length * r);
         if v.is_finite() { v.clamp(-1.0, 1.0) as f32 } else { 0.0 }
     }
+}
+
+/// Where a curve runs to at `s`: its derivative, or where that vanishes at an end the direction, not to scale, in which
+/// the end is left. Zero for a curve in one place.
+pub(super) fn heading(curve: &[Cubic; 3], s: f64) -> DVec3 {
+    let velocity = DVec3::from_array(curve.map(|c| c.with_slope(s).1));
+    if velocity != DVec3::ZERO {
+        return velocity;
+    }
+    let away = |from: usize, to: usize| {
+        Some(DVec3::from_array(curve.map(|c| c.0[to] - c.0[from]))).filter(|d| *d != DVec3::ZERO)
+    };
+    let found = if s < 0.5 { away(0, 2) } else { away(1, 3) };
+    found.or_else(|| away(0, 3)).unwrap_or(DVec3::ZERO)
 }
 
 /// Between which parameters the convex hull of the control polygon has values in `[-r, r]`: a larger and a smaller

@@ -76,6 +76,41 @@ fn results_depend_on_the_end_of_the_ray_only_through_that_bound() {
 }
 
 #[test]
+fn the_surface_at_a_hit_is_where_the_ray_is() {
+    let mut random = Random(6);
+    let mut hits = 0;
+    for i in 0..3000 {
+        let kind = KINDS[i % 3];
+        let center = random.direction() * [0.0, 100.0][i % 2];
+        let curves = invented(&mut random, kind, center, 1.0, [0.3, 0.01][i / 3 % 2]);
+        let ray = towards(&mut random, &curves, 0, 1.0);
+        let Some(hit) = intersect(&curves, &ray) else { continue };
+        hits += 1;
+        let surface = curves.surface(0, &ray, &hit);
+        let at_t = ray.o.to_f64() + ray.d.to_f64() * f64::from(hit.t);
+        let rounding = 3e-7 * (f64::from(hit.t) * ray.d.to_f64().length() + at_t.length() + 1.0);
+        let off = (surface.p.to_f64() - at_t).length();
+        assert!(off < rounding, "{curves:?} {ray:?} {hit:?} {surface:?}: {off}");
+        let (dpdu, dpdv, n) = (surface.dpdu, surface.dpdv, hit.n_g);
+        assert!(dpdu.dot(n).abs() <= 1e-5 * dpdu.length() && dpdv.dot(n).abs() <= 1e-5 * dpdv.length());
+        assert!(dpdu.dot(dpdv).abs() <= 1e-5 * dpdu.length() * dpdv.length());
+        let (_, r) = oracle::at(&curves, 0, hit.u.into());
+        assert!((f64::from(dpdv.length()) - r).abs() < 1e-5 * r, "{surface:?}");
+        let along = oracle::heading(&curves, 0, hit.u.into());
+        assert!(along.dot(dpdu.to_f64()) > 0.0);
+        assert!(kind == CurveKind::Round || (along - dpdu.to_f64()).length() < 0.9 * along.length());
+        // A step towards larger v, seen by a parallel ray; on end caps both directions turn about the pole.
+        let side_on = hit.u > 0.0 && hit.u < 1.0 && n.dot(ray.d).abs() > 0.3 * ray.d.length();
+        let beside = Ray { o: ray.o + dpdv * 0.01, ..ray };
+        if let Some(h) = intersect(&curves, &beside).filter(|h| (h.u - hit.u).abs() < 1e-2) {
+            let grows = h.v > hit.v || hit.v.abs() > 0.9 || !side_on;
+            assert!(grows, "{curves:?} {ray:?} {hit:?} {h:?} {surface:?}");
+        }
+    }
+    assert!(hits > 1000, "{hits}");
+}
+
+#[test]
 fn rays_that_can_hit_nothing_miss() {
     for kind in KINDS {
         let curves = straight(kind, [-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.5]);
