@@ -9,12 +9,16 @@ use super::{
 /// The smallest box that `f32` can make around all balls of the segment; infinite where they pass the range of f32.
 pub(super) fn bounds(curves: &Curves, segment: u32) -> Bounds3 {
     let r = Bernstein(curves.bezier_radii(segment));
-    let axes = curves.bezier_points(segment, |p| p.to_f64()).map(|c| {
+    let mut size = 0f64;
+    let points = curves.bezier_points(segment, |p| {
+        size = size.max(p.abs().max_component().into());
+        p.to_f64()
+    });
+    let axes = points.map(|c| {
         let c = Bernstein(c);
         let (lower, upper) = (c.plus(-1.0, &r), c.plus(1.0, &r));
-        let size = lower.0.iter().chain(&upper.0).fold(0f64, |a, b| a.max(b.abs()));
         // Roundings of conversion and evaluation, and of the extreme's place, which counts only squared.
-        let pad = 32.0 * f64::EPSILON * size;
+        let pad = 32.0 * f64::EPSILON * (size + r.max());
         let (min, max) = (least(&lower) - pad, -least(&upper.negated()) + pad);
         ((min as f32).next_down(), (max as f32).next_up())
     });

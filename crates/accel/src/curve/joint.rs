@@ -35,8 +35,12 @@ fn joint(curves: &Curves, first: u32, second: u32, frame: &RayFrame) -> Option<(
 
 /// Whether a ball of the segment holds the place at distance `z`, by more than rounding.
 fn contains(curves: &Curves, segment: u32, frame: &RayFrame, z: f64) -> bool {
-    let to_center = curves.bezier_points(segment, |p| frame.project(p) - DVec3::Z * z);
-    let reach = to_center.iter().flatten().fold(z.abs(), |a, b| a.max(b.abs()));
+    let mut reach = z.abs();
+    let to_center = curves.bezier_points(segment, |p| {
+        let projected = frame.project(p);
+        reach = reach.max(projected.abs().max_element());
+        projected - DVec3::Z * z
+    });
     let r = Bernstein(curves.bezier_radii(segment));
     let most = r.max();
     let skin = 2.0 * most * (DEPTH * most + RayFrame::own_error(reach));

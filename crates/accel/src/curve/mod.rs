@@ -119,12 +119,12 @@ impl Curves {
         let first = self.segments[segment as usize] as usize;
         values[first + i.min(self.basis.points() - 1)]
     }
-    fn bezier<T: Copy>(&self, values: &[T], segment: u32, turn: impl Fn(T) -> DVec3) -> [[f64; 4]; 3] {
+    fn bezier<T: Copy>(&self, values: &[T], segment: u32, mut turn: impl FnMut(T) -> DVec3) -> [[f64; 4]; 3] {
         let p: [DVec3; 4] = std::array::from_fn(|i| turn(self.control(values, segment, i)));
         std::array::from_fn(|axis| self.basis.to_bezier(p.map(|p| p[axis])))
     }
     /// Bezier control values of each coordinate, the points moved by `place` first.
-    fn bezier_points(&self, segment: u32, place: impl Fn(Point3) -> DVec3) -> [[f64; 4]; 3] {
+    fn bezier_points(&self, segment: u32, place: impl FnMut(Point3) -> DVec3) -> [[f64; 4]; 3] {
         self.bezier(&self.points, segment, place)
     }
     fn bezier_normals(&self, segment: u32, turn: impl Fn(Vector3) -> DVec3) -> [[f64; 4]; 3] {

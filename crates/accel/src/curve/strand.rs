@@ -29,8 +29,13 @@ pub(super) struct Strand {
 impl Strand {
     /// `None` if the ray comes nowhere near enough, sideways and along it, to meet a ball around a point of the curve.
     pub(super) fn near(curves: &Curves, segment: u32, frame: &RayFrame, t_max: f32) -> Option<Self> {
-        let [x, y, z] = curves.bezier_points(segment, |p| frame.project(p));
-        let reach = [x, y, z].iter().flatten().fold(0f64, |a, b| a.max(b.abs()));
+        // Of the control points, which may be larger than what a basis makes of them.
+        let mut reach = 0f64;
+        let [x, y, z] = curves.bezier_points(segment, |p| {
+            let projected = frame.project(p);
+            reach = reach.max(projected.abs().max_element());
+            projected
+        });
         let mut strand = Self {
             x: Bernstein(x),
             y: Bernstein(y),

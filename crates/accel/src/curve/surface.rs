@@ -34,7 +34,6 @@ impl Curves {
         let velocity = heading(&points, u);
         let r = Bernstein(self.bezier_radii(segment)).at(u);
         let n = hit.n_g.to_f64().normalize_or_zero();
-        let tangent = velocity - n * velocity.dot(n);
         let across = match self.kind {
             // Not from `n_g`, which twisted ribbons turn towards the curve's direction.
             CurveKind::Oriented => {
@@ -42,9 +41,10 @@ impl Curves {
                 DVec3::from_array(normals.map(|n| n.at(u))).cross(velocity)
             }
             // On the side of direction times curve, whichever way the normal looks.
-            CurveKind::Round | CurveKind::Flat => n.cross(tangent) * n.dot(ray.d.to_f64()).signum(),
+            CurveKind::Round | CurveKind::Flat => n.cross(velocity) * n.dot(ray.d.to_f64()).signum(),
         };
         let across = across.normalize_or_zero();
+        let along = n.cross(across).normalize_or_zero();
         let p = match self.kind {
             CurveKind::Round => center + n * r,
             CurveKind::Flat | CurveKind::Oriented => center + across * (v * r),
@@ -56,7 +56,7 @@ impl Curves {
         CurveSurface {
             p,
             p_error: (p - Point3::ZERO).abs() * gamma(2) + Vector3::splat(bent as f32),
-            dpdu: Vector3::from_f64(tangent),
+            dpdu: Vector3::from_f64(along * velocity.dot(along)),
             dpdv: Vector3::from_f64(across * r),
         }
     }

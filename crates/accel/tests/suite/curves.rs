@@ -88,7 +88,9 @@ fn the_surface_at_a_hit_is_where_the_ray_is() {
         hits += 1;
         let surface = curves.surface(0, &ray, &hit);
         let at_t = ray.o.to_f64() + ray.d.to_f64() * f64::from(hit.t);
-        let rounding = 3e-7 * (f64::from(hit.t) * ray.d.to_f64().length() + at_t.length() + 1.0);
+        // Where a ribbon twists, rounding u slides the point along it.
+        let slide = if kind == CurveKind::Oriented { 3e-6 } else { 3e-7 };
+        let rounding = slide * (f64::from(hit.t) * ray.d.to_f64().length() + at_t.length() + 1.0);
         let off = (surface.p.to_f64() - at_t).length();
         assert!(off < rounding, "{curves:?} {ray:?} {hit:?} {surface:?}: {off}");
         let (dpdu, dpdv, n) = (surface.dpdu, surface.dpdv, hit.n_g);
@@ -98,7 +100,7 @@ fn the_surface_at_a_hit_is_where_the_ray_is() {
         assert!((f64::from(dpdv.length()) - r).abs() < 1e-5 * r, "{surface:?}");
         let along = oracle::heading(&curves, 0, hit.u.into());
         assert!(along.dot(dpdu.to_f64()) > 0.0);
-        assert!(kind == CurveKind::Round || (along - dpdu.to_f64()).length() < 0.9 * along.length());
+        assert!(kind != CurveKind::Flat || (along - dpdu.to_f64()).length() < 1e-3 * along.length());
         // A step towards larger v, seen by a parallel ray; on end caps both directions turn about the pole.
         let side_on = hit.u > 0.0 && hit.u < 1.0 && n.dot(ray.d).abs() > 0.3 * ray.d.length();
         let beside = Ray { o: ray.o + dpdv * 0.01, ..ray };
