@@ -27,11 +27,35 @@ fn a_straight_ribbon_with_one_normal_is_a_plane_rectangle() {
             assert_eq!(intersect(&curves, &Ray::new(aim - d * 2.0, d)), None);
         }
     }
+    for x in [0.0, 2.0] {
+        let ray = Ray::new(Point3::new(x, 0.1, 3.0), Vector3::new(0.0, 0.0, -1.0));
+        assert!(intersect(&curves, &ray).is_some(), "ends belong to it");
+    }
     let edge_on = Ray::new(Point3::new(1.0, -3.0, -3.0), Vector3::new(0.0, 1.0, 1.0));
     assert_eq!(intersect(&curves, &edge_on), None);
     curves.normals = vec![Vector3::new(1.0, 0.0, 0.0); 2];
     let ray = Ray::new(Point3::new(1.0, 0.0, 3.0), Vector3::new(0.0, 0.0, -1.0));
     assert_eq!(intersect(&curves, &ray), None, "normals along the curve make no ribbon");
+}
+
+#[test]
+fn normals_that_pass_through_zero_add_nothing() {
+    let mut curves = straight(CurveKind::Oriented, [0.0; 3], [1.0, 0.0, 0.0], [0.5, 0.5]);
+    let hit = |curves: &Curves, x: f32| {
+        intersect(curves, &Ray::new(Point3::new(x, 0.1, 3.0), Vector3::new(0.0, 0.0, -1.0)))
+    };
+    for i in 1..40 {
+        // 0 near, but by rounding hardly ever at, the same place on the strand; the ribbon stays in its plane.
+        let turn = i as f32 / 40.3;
+        curves.normals = vec![Vector3::new(0.0, 0.0, turn), Vector3::new(0.0, 0.0, turn - 1.0)];
+        for x in [-0.3, -0.01, 1.01, 1.3] {
+            assert_eq!(hit(&curves, x), None, "turns at {turn}, beyond the end");
+        }
+        for x in [0.1, 0.77] {
+            let h = hit(&curves, x).expect("inside");
+            assert!((h.t - 3.0).abs() < 1e-6 && (h.u - x).abs() < 1e-5, "{h:?}");
+        }
+    }
 }
 
 /// Both edges of the ribbon at `s`.

@@ -213,6 +213,28 @@ fn a_ray_that_leaves_the_surface_does_not_meet_it_where_it_starts() {
 }
 
 #[test]
+fn rays_leave_surfaces_through_the_worlds_origin() {
+    // No coordinate of the origin is rounded there: what is left is the error of the hit itself.
+    let mut random = Random(27);
+    for i in 0..3000 {
+        let size = [1.0, 1.0 / 8192.0, 131_072.0][i % 3];
+        // (2, 3, 6) has length 7; the curve runs across it. All of that is exact in f32.
+        let mut sixteenth = || random.below(17) as f32 / 16.0;
+        let at = |k: f32| [(2.0 + 3.0 * k) * size, (3.0 - 2.0 * k) * size, 6.0 * size];
+        let curves = straight(CurveKind::Round, at(-sixteenth()), at(sixteenth()), [7.0 * size; 2]);
+        let curves = if i % 2 == 0 { curves } else { Curves { points: vec![at(0.0).into(); 2], ..curves } };
+        let d = random.direction();
+        let cosine = -d.dot(Vector3::new(2.0, 3.0, 6.0)) / 7.0;
+        let hit = intersect(&curves, &Ray::new(Point3::ZERO, d));
+        if cosine > 0.05 {
+            assert_eq!(hit, None, "{curves:?} {d:?}");
+        } else if cosine < -0.05 {
+            assert!(hit.is_some_and(|h| h.t > 0.05 * size), "{curves:?} {d:?}: {hit:?}");
+        }
+    }
+}
+
+#[test]
 fn a_tapered_end_is_hit_up_to_its_tip() {
     let curves = straight(CurveKind::Round, [0.0; 3], [1.0, 0.0, 0.0], [0.1, 0.0]);
     for i in 1..40 {
