@@ -44,7 +44,7 @@ pub(super) fn intersect(strand: &Strand, frame: &RayFrame, t_max: f32) -> Option
 /// may by rounding lie just outside for its neighbour too; this closes the seam.
 fn is_on_edge(strand: &Strand, s: f64) -> bool {
     let (center, heading) = (strand.center(s), strand.heading(s));
-    let length = heading.x.hypot(heading.y);
+    let length = heading.truncate().length();
     length > 0.0 && (center.x * heading.x + center.y * heading.y).abs() <= strand.own_error * length
 }
 

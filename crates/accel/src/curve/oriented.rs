@@ -78,7 +78,7 @@ impl Turning<'_> {
     fn is_on_edge(&self, s: f64) -> bool {
         let center = self.strand.center(s);
         self.across(s).is_some_and(|b| {
-            let length = b.x.hypot(b.y);
+            let length = b.truncate().length();
             (center.x * b.y - center.y * b.x).abs() <= self.strand.own_error * length
         })
     }
@@ -117,7 +117,7 @@ impl Turning<'_> {
     /// By how much more a sideways error moves the meeting along the ray: the tangent of its angle to the normal.
     fn steepness(&self, s: f64, b: DVec3, w: f64) -> f64 {
         let n = self.surface_normal(s, b, w);
-        n.x.hypot(n.y) / n.z.abs()
+        n.truncate().length() / n.z.abs()
     }
 
     fn hit(&self, frame: &RayFrame, meeting: Meeting) -> CurveHit {

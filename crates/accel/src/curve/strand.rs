@@ -100,7 +100,7 @@ impl Strand {
     /// the side of direction times curve. 0 where the ray looks along the curve.
     pub(super) fn side(&self, s: f64, from_center: DVec3, r: f64) -> f32 {
         let heading = self.heading(s);
-        let length = heading.x.hypot(heading.y);
+        let length = heading.truncate().length();
         let across = from_center.y * heading.x - from_center.x * heading.y;
         let v = across / (length * r);
         if v.is_finite() { v.clamp(-1.0, 1.0) as f32 } else { 0.0 }

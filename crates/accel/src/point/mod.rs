@@ -87,8 +87,8 @@ impl Points {
             PointKind::Sphere | PointKind::Disc => DVec3::splat(r),
             PointKind::OrientedDisc => {
                 let n = self.normals[prim as usize].to_f64().normalize();
-                // n_x^2 + n_y^2 + n_z^2 = 1, without its cancellation.
-                r * DVec3::new(n.y.hypot(n.z), n.z.hypot(n.x), n.x.hypot(n.y))
+                // sqrt(1 - n_a^2) without its cancellation.
+                r * DVec3::from_array(DVec3::AXES.map(|axis| n.cross(axis).length()))
             }
         };
         let pad = (center.abs() + reach) * (8.0 * f64::EPSILON);
@@ -158,6 +158,6 @@ fn disc(frame: &RayFrame, center: DVec3, r: f64, n: DVec3, off: f64) -> Option<f
     let distance_squared = center.x * center.x + center.y * center.y + beyond * beyond;
     // False for the NaN of a disc seen edge-on.
     let inside = distance_squared <= r * r;
-    let error = off * (1.0 + n.x.hypot(n.y) / n.z.abs());
+    let error = off * (1.0 + n.truncate().length() / n.z.abs());
     if inside { frame.t_ahead(center.z + beyond, error) } else { None }
 }
