@@ -41,7 +41,8 @@ pub enum CurveKind {
     /// starts inside meets the surface on its way out. Segments that follow one another in [`Curves::segments`], the first
     /// ending with the ball that the second begins with, are one solid without walls between them, as long as the strand runs through itself at its joints only.
     Round,
-    /// A ribbon, twice the radius wide, that faces every ray; its ends are cut straight. Hits no more than two radii away
+    /// A ribbon, twice the radius wide, that faces every ray. Its ends are cut straight: segments that meet at an angle
+    /// leave a wedge open outside of the bend, and those that continue one another smoothly do not. Hits no more than two radii away
     /// from the ray's origin do not count, because a ribbon that turns with the ray passes through almost any point of
     /// the strand.
     Flat,

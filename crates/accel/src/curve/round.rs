@@ -5,7 +5,7 @@
 //! so together they are one stretch, from the least `z - sqrt(g)` to the largest `z + sqrt(g)`. `g` has degree 6: there
 //! are at most four spans in `[0, 1]`, and the stretches of all of them are what of the ray lies inside. That is the
 //! whole surface, however the curve winds or its radius changes; nothing is traced or flattened. The envelope of balls
-//! is the view of Hart 2024, "Modeling Hair Strands with Roving Capsules"; the swept circles of others (Reshetov and
+//! is the view of Reshetov and Hart 2024, "Modeling Hair Strands with Roving Capsules"; the swept circles of others (Reshetov and
 //! Luebke 2018, "Phantom Ray-Hair Intersector") make the same tube but fold over in tight bends and end in open edges.
 //!
 //! Both ends are half balls, so segments that share a point and a radius overlap in a ball and leave no gap; what of
