@@ -16,6 +16,7 @@
 
 mod accel;
 mod build;
+pub mod curve;
 mod error;
 mod geometry;
 mod grow;
@@ -25,6 +26,7 @@ mod lanes;
 mod layout;
 mod owners;
 mod placement;
+pub mod point;
 mod probe;
 mod query;
 mod simd;

@@ -1,10 +1,12 @@
 //! What durer-accel promises, checked on seeded random scenes. `DURER_SLOW=1` runs 10^6 rays where noted.
 mod bending;
 mod corpus;
+mod curves;
 mod edge_cases;
 mod equality;
 mod icosphere;
 mod instancing;
+mod points;
 mod properties;
 mod triangle;
 mod watertight;
