@@ -62,6 +62,11 @@ impl Item {
     pub(super) fn center(&self) -> f32x4 {
         self.0.lo + self.0.hi
     }
+    /// The same on one axis.
+    #[inline(always)]
+    pub(super) fn center_on(&self, axis: usize) -> f32 {
+        self.0.lo.as_array()[axis] + self.0.hi.as_array()[axis]
+    }
 }
 
 /// A binary tree whose node 0 is the root.

@@ -14,6 +14,7 @@ mod collapse;
 mod emit;
 mod hull;
 mod partition;
+mod shared;
 #[cfg(test)]
 mod tests;
 mod top_down;
@@ -78,7 +79,11 @@ pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> Wid
     if prims.len() == 0 {
         return WideTree::default();
     }
-    let _ = preset;
-    let tree = top_down::build(prims);
+    let leaf_max = match preset {
+        Preset::Fast => PACKET,
+        Preset::Balanced => PACKET / 2,
+        Preset::High => 1,
+    };
+    let tree = top_down::build(prims, leaf_max);
     collapse::collapse(&tree, prims, width)
 }

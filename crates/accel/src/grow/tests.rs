@@ -95,7 +95,7 @@ fn threads_do_not_change_the_tree() {
         let children: Vec<_> = tree.children.iter().map(|c| (bits(&c.bounds), c.first, c.count)).collect();
         (tree.nodes, children, tree.order)
     };
-    for mesh in [Mesh::blob(110), Mesh::rooms(9000)] {
+    for mesh in [Mesh::blob(50), Mesh::rooms(3000)] {
         for preset in PRESETS {
             let one = grown(&mesh, preset, 1);
             for threads in [2, 3, 7] {

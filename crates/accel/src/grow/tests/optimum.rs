@@ -1,4 +1,6 @@
 //! The collapse against all possible collapses.
+use std::{cell::RefCell, collections::HashMap};
+
 use super::super::{
     PACKET, Preset, Primitives,
     binary::{Binary, Node},
@@ -6,12 +8,20 @@ use super::super::{
 };
 use super::meshes::Mesh;
 
-/// Cost of the cheapest forest of at most `most` trees below a node, by trying everything; `split` if it must not be
-/// one tree.
+/// Cost of the cheapest forest of at most `most` trees below a node, by trying everything.
+
 struct Exhaustive<'a> {
     tree: &'a Binary,
     mesh: &'a Mesh,
     width: usize,
+    /// `forests` known already.
+    known: RefCell<HashMap<(u32, usize), f64>>,
+}
+
+impl<'a> Exhaustive<'a> {
+    fn new(tree: &'a Binary, mesh: &'a Mesh, width: usize) -> Self {
+        Self { tree, mesh, width, known: RefCell::default() }
+    }
 }
 
 impl Exhaustive<'_> {
@@ -40,7 +50,12 @@ impl Exhaustive<'_> {
         let below = |name, most| {
             if most == 1 { self.one(name) } else { self.one(name).min(self.forests(name, most)) }
         };
-        (1..most).map(|k| below(left, k) + below(right, most - k)).fold(f64::INFINITY, f64::min)
+        if let Some(&cost) = self.known.borrow().get(&(name, most)) {
+            return cost;
+        }
+        let cost = (1..most).map(|k| below(left, k) + below(right, most - k)).fold(f64::INFINITY, f64::min);
+        self.known.borrow_mut().insert((name, most), cost);
+        cost
     }
     /// What is gained by opening the largest child until all slots are taken.
     fn greedy(&self, name: u32) -> f64 {
@@ -79,8 +94,8 @@ fn no_collapse_of_a_small_tree_is_cheaper() {
     {
         for size in [0.02, 0.3, 2.0] {
             let mesh = Mesh { alone, ..Mesh::soup(n, size) };
-            let tree = top_down::build(&mesh);
-            let least = Exhaustive { tree: &tree, mesh: &mesh, width }.one(0);
+            let tree = top_down::build(&mesh, 1);
+            let least = Exhaustive::new(&tree, &mesh, width).one(0);
             let found = cost(&tree, &mesh, width);
             assert!(
                 (found - least).abs() <= 1e-5 * least,
@@ -95,9 +110,9 @@ fn greedy_collapse_is_never_cheaper() {
     for mesh in
         [Mesh::soup(3000, 0.02), Mesh::blob(20), Mesh::rooms(300), Mesh { alone: 1, ..Mesh::rooms(100) }]
     {
-        let tree = top_down::build(&mesh);
+        let tree = top_down::build(&mesh, 1);
         for width in [8, 16] {
-            let greedy = Exhaustive { tree: &tree, mesh: &mesh, width }.greedy(0);
+            let greedy = Exhaustive::new(&tree, &mesh, width).greedy(0);
             let found = cost(&tree, &mesh, width);
             assert!(found < 0.99 * greedy, "{width}: {found} against {greedy}");
         }
