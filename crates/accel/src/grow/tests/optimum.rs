@@ -4,12 +4,14 @@ use std::{cell::RefCell, collections::HashMap};
 use super::super::{
     PACKET, Preset, Primitives,
     binary::{Binary, Node},
-    grow, top_down,
+    collapse::collapse,
+    grow,
+    reinsert::{Effort, reinsert},
+    top_down,
 };
 use super::meshes::Mesh;
 
 /// Cost of the cheapest forest of at most `most` trees below a node, by trying everything.
-
 struct Exhaustive<'a> {
     tree: &'a Binary,
     mesh: &'a Mesh,
@@ -80,7 +82,7 @@ impl Exhaustive<'_> {
 
 /// The cost of the tree that `grow` makes, in the unit of the binary tree.
 fn cost(tree: &Binary, mesh: &Mesh, width: usize) -> f64 {
-    let wide = super::super::collapse::collapse(tree, mesh, width);
+    let wide = collapse(tree, mesh, width).expect("not too deep");
     let area = |c: &super::Child| f64::from(tree.unit.area(&super::super::hull::Hull::new(&c.bounds)));
     let is_leaf = wide.nodes.len() == 2 && wide.children.len() == 1;
     let root = if is_leaf { 0.0 } else { f64::from(tree.unit.area(&tree.nodes[0].0)) };
@@ -124,4 +126,24 @@ fn a_wider_node_costs_less() {
     let mesh = Mesh::rooms(500);
     let [eight, sixteen] = [8, 16].map(|width| super::sah_cost(&grow(&mesh, width, Preset::Balanced)));
     assert!(sixteen < eight, "{sixteen} against {eight}");
+}
+
+#[test]
+fn reinsertion_never_costs() {
+    for (mesh, leaf_max) in
+        [(Mesh::soup(3000, 0.2), 1), (Mesh::blob(20), 4), (Mesh::rooms(300), 1), (Mesh::rooms(300), 8)]
+    {
+        let mut tree = top_down::build(&mesh, leaf_max);
+        let cost =
+            |tree: &Binary| tree.nodes.iter().map(|node| f64::from(tree.unit.area(&node.0))).sum::<f64>();
+        let mut before = cost(&tree);
+        for round in 0..5 {
+            reinsert(&mut tree, Effort { rounds: 1, fraction: 0.3 });
+            let after = cost(&tree);
+            assert!(after <= before * 1.000001, "round {round}: {after} from {before}");
+            assert!(round > 0 || after < before, "the first round finds something");
+            before = after;
+        }
+        super::check(&collapse(&tree, &mesh, 16).expect("not too deep"), &mesh, 16);
+    }
 }
