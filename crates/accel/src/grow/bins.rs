@@ -32,6 +32,7 @@ pub(super) struct Plane {
     /// Twice its coordinate, roughly.
     pub(super) at: f32,
     pub(super) hulls: [Hull; 2],
+    pub(super) cost: f32,
     origin: f32,
     scale: f32,
     bin: f32,
@@ -132,15 +133,16 @@ impl Bins {
         }
         let (least, place) = (least.to_array(), place.to_array());
         let axis = (1..3).fold(0, |best, axis| if least[axis] < least[best] { axis } else { best });
-        (least[axis] > 0.0 && least[axis] < f32::INFINITY).then(|| self.plane(slices, axis, place[axis]))
+        (least[axis] > 0.0 && least[axis] < f32::INFINITY)
+            .then(|| self.plane(slices, axis, place[axis], least[axis]))
     }
 
-    fn plane(&self, slices: &Slices, axis: usize, bin: f32) -> Plane {
+    fn plane(&self, slices: &Slices, axis: usize, bin: f32, cost: f32) -> Plane {
         let (left, right) = self.hulls[..slices.count].split_at(bin as usize);
         let around = |side: &[[Hull; 3]]| side.iter().fold(Hull::EMPTY, |h, bin| h.joined(bin[axis]));
         let hulls = [around(left), around(right)];
         let (origin, scale) = (slices.origin.as_array()[axis], slices.scale.as_array()[axis]);
-        Plane { axis, at: origin + bin / scale, hulls, origin, scale, bin }
+        Plane { axis, at: origin + bin / scale, hulls, cost, origin, scale, bin }
     }
 }
 

@@ -88,19 +88,23 @@ impl Emission<'_> {
         let bounds = self.tree.nodes[name as usize].0.bounds();
         let first = self.wide.order.len();
         if self.is_leaf(name) {
-            self.primitives(name);
+            self.primitives(name, first);
         }
         let count = self.wide.order.len() - first;
         self.wide.children.push(Child { bounds, first: first as u32, count: count as u32 });
     }
 
-    /// Writes the primitives below a binary node.
-    fn primitives(&mut self, name: u32) {
+    /// Writes the primitives below a binary node; those that the leaf, which begins at `begin`, has already (in pieces)
+    /// only once.
+    fn primitives(&mut self, name: u32, begin: usize) {
         match self.tree.nodes[name as usize].node() {
-            Node::Inner(below) => below.into_iter().for_each(|name| self.primitives(name)),
+            Node::Inner(below) => below.into_iter().for_each(|name| self.primitives(name, begin)),
             Node::Leaf { first, count } => {
-                let range = first as usize..(first + count) as usize;
-                self.wide.order.extend_from_slice(&self.tree.order[range]);
+                for prim in &self.tree.order[first as usize..(first + count) as usize] {
+                    if !self.wide.order[begin..].contains(prim) {
+                        self.wide.order.push(*prim);
+                    }
+                }
             }
         }
     }

@@ -30,17 +30,28 @@ pub(super) struct Grower<'a, P> {
     pub(super) leaf_max: usize,
 }
 
-/// The tree over `prims`, of which there is at least one, with up to `leaf_max` of those that pack in a leaf.
-pub(super) fn build(prims: &impl Primitives, leaf_max: usize) -> Binary {
+/// References to all primitives, of which there is at least one, and the unit for areas of boxes around them.
+pub(super) fn references(prims: &impl Primitives) -> (Vec<Item>, AreaUnit) {
     let reference = |prim: u32| Item::reference(&Hull::new(&prims.bounds(prim)), prim);
-    let mut items: Vec<Item> =
+    let items: Vec<Item> =
         (0..prims.len() as u32).into_par_iter().with_min_len(CHUNK).map(reference).collect();
+    let unit = AreaUnit::new(&shared::around(&items).hull);
+    (items, unit)
+}
+
+/// The tree over one item or more, with up to `leaf_max` of those that pack in a leaf.
+pub(super) fn build(
+    prims: &impl Primitives,
+    mut items: Vec<Item>,
+    unit: AreaUnit,
+    leaf_max: usize,
+) -> Binary {
     let around = shared::around(&items);
-    let grower = Grower { prims, unit: AreaUnit::new(&around.hull), leaf_max };
+    let grower = Grower { prims, unit, leaf_max };
     let subtrees = shared::grow(&grower, Plot { first: 0, depth: 0, around }, &mut items);
     let order = items.par_iter().with_min_len(CHUNK).map(Item::prim).collect();
     drop(items);
-    Binary { nodes: subtrees.assembled(), order, unit: grower.unit }
+    Binary { nodes: subtrees.assembled(), order, unit }
 }
 
 impl Plot {

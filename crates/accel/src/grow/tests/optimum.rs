@@ -89,6 +89,11 @@ fn cost(tree: &Binary, mesh: &Mesh, width: usize) -> f64 {
     root + wide.children.iter().map(area).sum::<f64>()
 }
 
+fn binary(mesh: &Mesh, leaf_max: usize) -> Binary {
+    let (items, unit) = top_down::references(mesh);
+    top_down::build(mesh, items, unit, leaf_max)
+}
+
 #[test]
 fn no_collapse_of_a_small_tree_is_cheaper() {
     for (n, alone, width) in
@@ -96,7 +101,7 @@ fn no_collapse_of_a_small_tree_is_cheaper() {
     {
         for size in [0.02, 0.3, 2.0] {
             let mesh = Mesh { alone, ..Mesh::soup(n, size) };
-            let tree = top_down::build(&mesh, 1);
+            let tree = binary(&mesh, 1);
             let least = Exhaustive::new(&tree, &mesh, width).one(0);
             let found = cost(&tree, &mesh, width);
             assert!(
@@ -112,7 +117,7 @@ fn greedy_collapse_is_never_cheaper() {
     for mesh in
         [Mesh::soup(3000, 0.02), Mesh::blob(20), Mesh::rooms(300), Mesh { alone: 1, ..Mesh::rooms(100) }]
     {
-        let tree = top_down::build(&mesh, 1);
+        let tree = binary(&mesh, 1);
         for width in [8, 16] {
             let greedy = Exhaustive::new(&tree, &mesh, width).greedy(0);
             let found = cost(&tree, &mesh, width);
@@ -133,7 +138,7 @@ fn reinsertion_never_costs() {
     for (mesh, leaf_max) in
         [(Mesh::soup(3000, 0.2), 1), (Mesh::blob(20), 4), (Mesh::rooms(300), 1), (Mesh::rooms(300), 8)]
     {
-        let mut tree = top_down::build(&mesh, leaf_max);
+        let mut tree = binary(&mesh, leaf_max);
         let cost =
             |tree: &Binary| tree.nodes.iter().map(|node| f64::from(tree.unit.area(&node.0))).sum::<f64>();
         let mut before = cost(&tree);
