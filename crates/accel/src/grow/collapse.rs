@@ -21,6 +21,9 @@ pub(super) const WIDEST: usize = 16;
 /// Above this level subtrees are left to other threads if those are idle.
 const LEVELS_SHARED: u32 = 14;
 
+/// Levels of a binary tree that recursion goes down; a tree that deep is degenerate.
+const LEVELS_MAX: u32 = 1000;
+
 /// What is best for each binary node.
 pub(super) struct Choices {
     pub(super) width: usize,
@@ -59,8 +62,11 @@ struct Forest {
     packs: bool,
 }
 
-/// Collapses a binary tree, which is not empty, to nodes of `width`.
-pub(super) fn collapse(tree: &Binary, prims: &impl Primitives, width: usize) -> WideTree {
+/// Collapses a binary tree, which is not empty, to nodes of `width`; `None` if the result would be too deep.
+pub(super) fn collapse(tree: &Binary, prims: &impl Primitives, width: usize) -> Option<WideTree> {
+    if tree.levels() > LEVELS_MAX {
+        return None;
+    }
     let width = width.clamp(2, WIDEST);
     let of_node = (0..tree.nodes.len()).into_par_iter().map(|_| AtomicU64::new(0)).collect();
     let choices = Choices { width, of_node };

@@ -1,31 +1,36 @@
 //! Writes down the wide tree that was chosen, depth first.
 use super::{
-    Child, WideTree,
+    Child, DEPTH_MAX, WideTree,
     binary::{Binary, Node},
     collapse::{Choices, WIDEST},
 };
 
-/// The wide tree of `choices`.
-pub(super) fn emit(tree: &Binary, choices: &Choices) -> WideTree {
-    let mut emission = Emission { tree, choices, wide: WideTree::default() };
+/// The wide tree of `choices`, if it is not too deep.
+pub(super) fn emit(tree: &Binary, choices: &Choices) -> Option<WideTree> {
+    let mut emission = Emission { tree, choices, wide: WideTree::default(), levels: 1 };
     emission.wide.order.reserve_exact(tree.order.len());
     if emission.is_leaf(0) {
         emission.wide.nodes.push(0);
         emission.child(0);
     } else {
-        emission.node(0);
+        emission.node(0, 1);
+    }
+    if emission.levels > DEPTH_MAX {
+        return None;
     }
     let mut wide = emission.wide;
     wide.nodes.push(wide.children.len() as u32);
     wide.nodes.shrink_to_fit();
     wide.children.shrink_to_fit();
-    wide
+    Some(wide)
 }
 
 struct Emission<'a> {
     tree: &'a Binary,
     choices: &'a Choices,
     wide: WideTree,
+    /// Of nodes so far.
+    levels: u32,
 }
 
 /// The children of a wide node: binary nodes.
@@ -41,7 +46,8 @@ impl Emission<'_> {
     }
 
     /// Writes a wide node and all below it.
-    fn node(&mut self, name: u32) {
+    fn node(&mut self, name: u32, level: u32) {
+        self.levels = self.levels.max(level);
         let mut roots = Roots::default();
         if let Node::Inner([left, right]) = self.tree.nodes[name as usize].node() {
             let k = self.choices.of(name).left_of(self.choices.width);
@@ -56,7 +62,7 @@ impl Emission<'_> {
         for (place, &root) in roots.names[..roots.count].iter().enumerate() {
             if !self.is_leaf(root) {
                 self.wide.children[first + place].first = self.wide.nodes.len() as u32;
-                self.node(root);
+                self.node(root, level + 1);
             }
         }
     }
@@ -82,19 +88,23 @@ impl Emission<'_> {
         let bounds = self.tree.nodes[name as usize].0.bounds();
         let first = self.wide.order.len();
         if self.is_leaf(name) {
-            self.primitives(name);
+            self.primitives(name, first);
         }
         let count = self.wide.order.len() - first;
         self.wide.children.push(Child { bounds, first: first as u32, count: count as u32 });
     }
 
-    /// Writes the primitives below a binary node.
-    fn primitives(&mut self, name: u32) {
+    /// Writes the primitives below a binary node; those that the leaf, which begins at `begin`, has already (in pieces)
+    /// only once.
+    fn primitives(&mut self, name: u32, begin: usize) {
         match self.tree.nodes[name as usize].node() {
-            Node::Inner(below) => below.into_iter().for_each(|name| self.primitives(name)),
+            Node::Inner(below) => below.into_iter().for_each(|name| self.primitives(name, begin)),
             Node::Leaf { first, count } => {
-                let range = first as usize..(first + count) as usize;
-                self.wide.order.extend_from_slice(&self.tree.order[range]);
+                for prim in &self.tree.order[first as usize..(first + count) as usize] {
+                    if !self.wide.order[begin..].contains(prim) {
+                        self.wide.order.push(*prim);
+                    }
+                }
             }
         }
     }

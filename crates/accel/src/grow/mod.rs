@@ -1,8 +1,12 @@
 //! Grows the tree of boxes that rays walk: top down by the surface area heuristic, then collapsed to wide nodes.
 //!
-//! 1. `top_down`: a binary tree by binned SAH (Wald 2007, "On fast Construction of SAH-based Bounding Volume
+//! 1. `spatial`: primitives are cut where that keeps boxes from overlapping (Stich, Friedrich, Dietrich 2009, "Spatial
+//!    Splits in Bounding Volume Hierarchies").
+//! 2. `top_down`: a binary tree by binned SAH (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 //!    Hierarchies").
-//! 2. `collapse`: the cheapest tree of wide nodes and leaf packets that the binary tree contains, by dynamic
+//! 3. `reinsert`: subtrees move to where they cost less (Meister, Bittner 2018, "Parallel Reinsertion for Bounding Volume
+//!    Hierarchy Optimization").
+//! 4. `collapse`: the cheapest tree of wide nodes and leaf packets that the binary tree contains, by dynamic
 //!    programming (Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 //!    BVHs").
 //!
@@ -10,15 +14,21 @@
 //! threads: chunks are of fixed size, and what is merged across threads are minima, maxima and whole numbers.
 mod binary;
 mod bins;
+pub(crate) mod clip;
 mod collapse;
 mod emit;
 mod hull;
 mod partition;
+mod reinsert;
+mod shared;
+mod spatial;
 #[cfg(test)]
 mod tests;
 mod top_down;
 
+use binary::Binary;
 use durer_core::math::Bounds3;
+use reinsert::Effort;
 
 /// How much work goes into a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,7 +88,45 @@ pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> Wid
     if prims.len() == 0 {
         return WideTree::default();
     }
-    let _ = preset;
-    let tree = top_down::build(prims);
-    collapse::collapse(&tree, prims, width)
+    let plan = Plan::of(preset);
+    let mut tree = plan.binary(prims);
+    if let Some(effort) = plan.effort {
+        reinsert::reinsert(&mut tree, effort);
+    }
+    if let Some(wide) = collapse::collapse(&tree, prims, width) {
+        return wide;
+    }
+    // Reinsertion has made a tree that is too deep; without it that cannot be.
+    collapse::collapse(&plan.binary(prims), prims, width).expect("a binary tree that is not too deep")
+}
+
+/// What a preset does.
+struct Plan {
+    /// Most primitives in a leaf of the binary tree.
+    leaf_max: usize,
+    effort: Option<Effort>,
+    cuts: bool,
+}
+
+impl Plan {
+    fn of(preset: Preset) -> Self {
+        match preset {
+            Preset::Fast => Self { leaf_max: PACKET, effort: None, cuts: false },
+            Preset::Balanced => {
+                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 4, fraction: 0.1 }), cuts: false }
+            }
+            Preset::High => {
+                Self { leaf_max: 1, effort: Some(Effort { rounds: 8, fraction: 0.5 }), cuts: true }
+            }
+        }
+    }
+
+    /// The tree as it is without reinsertion.
+    fn binary(&self, prims: &impl Primitives) -> Binary {
+        let (mut items, unit) = top_down::references(prims);
+        if self.cuts {
+            items = spatial::pieces(prims, items, unit);
+        }
+        top_down::build(prims, items, unit, self.leaf_max)
+    }
 }

@@ -65,7 +65,11 @@ fn degenerate_input_is_halved() {
     // Centres whose distances halve again and again: SAH alone would give a level to each few.
     let towards = |i: i32| [point(2f32.powi(-i)), point(2f32.powi(-i) * 1.01), point(2f32.powi(-i) * 1.02)];
     let towards = Mesh { triangles: (-120..120).map(towards).collect(), alone: 1 };
-    for (mesh, preset) in [&same, &nested, &line, &towards].into_iter().flat_map(|m| PRESETS.map(|p| (m, p)))
+    let shells =
+        |i: i32| [point(-1.01f32.powi(i)), point(1.01f32.powi(i)), Point3::new(0.0, 1.01f32.powi(i), 0.0)];
+    let shells = Mesh { triangles: (-4000..4000).map(shells).collect(), alone: 1 };
+    for (mesh, preset) in
+        [&same, &nested, &line, &towards, &shells].into_iter().flat_map(|m| PRESETS.map(|p| (m, p)))
     {
         check(&grow(mesh, 8, preset), mesh, 8);
     }
@@ -95,7 +99,7 @@ fn threads_do_not_change_the_tree() {
         let children: Vec<_> = tree.children.iter().map(|c| (bits(&c.bounds), c.first, c.count)).collect();
         (tree.nodes, children, tree.order)
     };
-    for mesh in [Mesh::blob(110), Mesh::rooms(9000)] {
+    for mesh in [Mesh::blob(50), Mesh::rooms(3000)] {
         for preset in PRESETS {
             let one = grown(&mesh, preset, 1);
             for threads in [2, 3, 7] {

@@ -1,112 +1,121 @@
-//! From references to a binary tree, top down.
+//! From references to a binary tree, top down: one thread.
 //!
-//! A subtree over n items has 2n - 1 nodes, so its nodes lie in preorder in a range that is known beforehand, and
-//! threads fill disjoint slices. Where no plane splits (equal centres, no areas), or the tree would get deeper than
-//! allowed, items are halved by rank.
+//! Where no plane splits (equal centres, no areas), or the tree would get deeper than allowed, items are halved by rank.
 use rayon::prelude::*;
 
 use super::{
     DEPTH_MAX, Primitives,
     binary::{Binary, Item},
-    bins::{Bins, Slices},
+    bins::{Bins, Plane, Slices},
     hull::{AreaUnit, Hull},
     partition::{self, Around},
+    shared::{self, CHUNK},
 };
 
-/// Ranges longer than this are left to another thread if one is idle.
-const GRAIN: usize = 4096;
-/// Items that one thread looks at together at the top of the tree.
-const CHUNK: usize = 1 << 14;
-
-/// A range of items and the slots for the nodes over them.
-struct Range<'a> {
-    items: &'a mut [Item],
-    nodes: &'a mut [Item],
-    first_item: u32,
-    first_node: u32,
+/// What is known of a range of items.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plot {
+    /// Where it begins among all items.
+    pub(super) first: u32,
     /// Levels above.
-    depth: u32,
-    around: Around,
+    pub(super) depth: u32,
+    pub(super) around: Around,
 }
 
-/// The tree over `prims`, of which there is at least one, down to single primitives.
-pub(super) fn build(prims: &impl Primitives) -> Binary {
-    let n = prims.len();
-    let reference = |prim: usize| {
-        let prim = prim as u32;
-        Item::reference(&Hull::new(&prims.bounds(prim)), prim)
-    };
-    let mut items: Vec<Item> = (0..n).into_par_iter().with_min_len(GRAIN).map(reference).collect();
-    let slots = 2 * n - 1;
-    let mut nodes: Vec<Item> = (0..slots).into_par_iter().with_min_len(GRAIN).map(|_| Item::ZERO).collect();
-    let around = items.par_chunks(CHUNK).map(Around::new).reduce_with(Around::joined);
-    let around = around.expect("at least one item");
-    let unit = AreaUnit::new(&around.hull);
-    split(
-        &unit,
-        Range { items: &mut items, nodes: &mut nodes, first_item: 0, first_node: 0, depth: 0, around },
-    );
-    let order = items.par_iter().with_min_len(GRAIN).map(Item::prim).collect();
-    Binary { nodes, order, unit }
+/// What all ranges have in common.
+pub(super) struct Grower<'a, P> {
+    pub(super) prims: &'a P,
+    pub(super) unit: AreaUnit,
+    /// Most primitives in a leaf of the binary tree.
+    pub(super) leaf_max: usize,
 }
 
-fn split(unit: &AreaUnit, range: Range) {
-    let Range { items, nodes, first_item, first_node, depth, around } = range;
-    let n = items.len();
-    let (node, below) = nodes.split_first_mut().expect("a slot for each node");
-    if n == 1 {
-        *node = Item::leaf(&around.hull, first_item, 1);
-        return;
+/// References to all primitives, of which there is at least one, and the unit for areas of boxes around them.
+pub(super) fn references(prims: &impl Primitives) -> (Vec<Item>, AreaUnit) {
+    let reference = |prim: u32| Item::reference(&Hull::new(&prims.bounds(prim)), prim);
+    let items: Vec<Item> =
+        (0..prims.len() as u32).into_par_iter().with_min_len(CHUNK).map(reference).collect();
+    let unit = AreaUnit::new(&shared::around(&items).hull);
+    (items, unit)
+}
+
+/// The tree over one item or more, with up to `leaf_max` of those that pack in a leaf.
+pub(super) fn build(
+    prims: &impl Primitives,
+    mut items: Vec<Item>,
+    unit: AreaUnit,
+    leaf_max: usize,
+) -> Binary {
+    let around = shared::around(&items);
+    let grower = Grower { prims, unit, leaf_max };
+    let subtrees = shared::grow(&grower, Plot { first: 0, depth: 0, around }, &mut items);
+    let order = items.par_iter().with_min_len(CHUNK).map(Item::prim).collect();
+    drop(items);
+    Binary { nodes: subtrees.assembled(), order, unit }
+}
+
+impl Plot {
+    /// Whether a tree over `n` items that begins here may be split any way: halving just reaches single items at the
+    /// last level.
+    pub(super) fn has_levels_for(&self, n: usize) -> bool {
+        self.depth + n.next_power_of_two().trailing_zeros() + 1 < DEPTH_MAX
     }
-    let middle = divide(unit, items, depth, &around);
-    let (left, right) = items.split_at_mut(middle);
-    let slots = 2 * middle - 1;
-    let (nodes_left, nodes_right) = below.split_at_mut(slots);
-    let (name_left, name_right) = (first_node + 1, first_node + 1 + slots as u32);
-    *node = Item::inner(&around.hull, [name_left, name_right]);
-    let depth = depth + 1;
-    let (around_left, around_right) = (Around::new(left), Around::new(right));
-    let left = Range {
-        items: left,
-        nodes: nodes_left,
-        first_item,
-        first_node: name_left,
-        depth,
-        around: around_left,
-    };
-    let first_item = first_item + middle as u32;
-    let right = Range {
-        items: right,
-        nodes: nodes_right,
-        first_item,
-        first_node: name_right,
-        depth,
-        around: around_right,
-    };
-    if n > GRAIN {
-        rayon::join(|| split(unit, left), || split(unit, right));
-    } else {
-        split(unit, left);
-        split(unit, right);
+
+    /// The two parts of a split range.
+    pub(super) fn split(&self, middle: usize, around: [Around; 2]) -> [Self; 2] {
+        let (first, depth) = (self.first, self.depth + 1);
+        [
+            Self { first, depth, around: around[0] },
+            Self { first: first + middle as u32, depth, around: around[1] },
+        ]
+    }
+
+    /// Halves a range.
+    pub(super) fn halve(&self, items: &mut [Item]) -> (usize, [Around; 2]) {
+        let middle = partition::halve(items, &self.around.centers);
+        let (left, right) = items.split_at(middle);
+        (middle, [Around::new(left), Around::new(right)])
     }
 }
 
-/// Orders two or more items so that the first so many make the left child.
-#[inline(never)]
-fn divide(unit: &AreaUnit, items: &mut [Item], depth: u32, around: &Around) -> usize {
-    let n = items.len();
-    if n == 2 {
-        return 1;
-    }
-    // Halving from here on just reaches single items at the last level.
-    let levels = n.next_power_of_two().trailing_zeros() + 1;
-    if depth + levels < DEPTH_MAX {
-        let slices = Slices::new(&around.centers, n);
-        let mut bins = Bins::EMPTY;
-        bins.fill(&slices, items);
-        if let Some(plane) = bins.best(&slices, n, unit) {
-            return partition::by_plane(items, &slices, &plane);
+impl<P: Primitives> Grower<'_, P> {
+    /// Appends the nodes over a range. They point to their children by the distance.
+    pub(super) fn grow(&self, plot: Plot, items: &mut [Item], nodes: &mut Vec<Item>) {
+        let (hull, n) = (plot.around.hull, items.len());
+        let packs = |item: &Item| self.prims.packs(item.prim());
+        if n == 1 || n <= self.leaf_max && items.iter().all(packs) {
+            nodes.push(Item::leaf(&hull, plot.first, n));
+            return;
         }
+        let node = nodes.len();
+        nodes.push(Item::ZERO);
+        let (middle, around) = self.divide(&plot, items).unwrap_or_else(|| plot.halve(items));
+        let [left, right] = plot.split(middle, around);
+        let (items_left, items_right) = items.split_at_mut(middle);
+        self.grow(left, items_left, nodes);
+        let right_place = (nodes.len() - node) as u32;
+        self.grow(right, items_right, nodes);
+        nodes[node] = Item::inner(&hull, [1, right_place]);
     }
-    partition::halve(items, &around.centers)
+
+    /// Splits two or more items by the surface area heuristic, if that can.
+    #[inline(never)]
+    fn divide(&self, plot: &Plot, items: &mut [Item]) -> Option<(usize, [Around; 2])> {
+        if !plot.has_levels_for(items.len()) {
+            return None;
+        }
+        let mut around = plot.around;
+        let plane = self.plane(&around, items).or_else(|| {
+            // What was known of the centres may have been too wide.
+            around = Around::new(items);
+            self.plane(&around, items)
+        })?;
+        Some((partition::by_plane(items, &plane), around.sides(&plane)))
+    }
+
+    #[inline(always)]
+    fn plane(&self, around: &Around, items: &[Item]) -> Option<Plane> {
+        let slices = Slices::new(&around.centers, items.len());
+        Bins::new(&slices, items).best(&slices, items.len(), &self.unit)
+    }
 }

@@ -1,7 +1,10 @@
 //! Checks a tree against its contract.
-use durer_core::math::Bounds3;
+use durer_core::math::{Bounds3, Point3};
 
-use super::super::{Child, DEPTH_MAX, PACKET, Primitives, WideTree};
+use super::{
+    super::{Child, DEPTH_MAX, PACKET, Primitives, WideTree},
+    meshes::Mesh,
+};
 
 impl WideTree {
     pub(super) fn children_of(&self, node: u32) -> &[Child] {
@@ -14,20 +17,38 @@ fn inside(inner: &Bounds3, outer: &Bounds3) -> bool {
     outer.contains(inner.min) && outer.contains(inner.max)
 }
 
-/// Panics unless `tree` keeps the promises of `grow` over `prims` that are not cut.
-pub(super) fn check(tree: &WideTree, prims: &impl Primitives, width: usize) {
-    let mut seen = vec![0u32; prims.len()];
+/// Panics unless `tree` keeps the promises of `grow` over a mesh.
+pub(super) fn check(tree: &WideTree, mesh: &Mesh, width: usize) {
+    let mut boxes = vec![Vec::new(); mesh.len()];
     for child in tree.children.iter().filter(|c| c.count > 0) {
         let leaf = &tree.order[child.first as usize..][..child.count as usize];
-        assert!(leaf.len() == 1 || leaf.iter().all(|&p| prims.packs(p)) && leaf.len() <= PACKET, "{leaf:?}");
-        for &prim in leaf {
-            seen[prim as usize] += 1;
-            assert!(inside(&prims.bounds(prim), &child.bounds), "{prim} sticks out of its leaf");
+        assert!(leaf.len() == 1 || leaf.iter().all(|&p| mesh.packs(p)) && leaf.len() <= PACKET, "{leaf:?}");
+        leaf.iter().for_each(|&prim| boxes[prim as usize].push(child.bounds));
+    }
+    for (prim, boxes) in boxes.iter().enumerate() {
+        match boxes.as_slice() {
+            [] => panic!("{prim} is in no leaf"),
+            [one] => assert!(inside(&mesh.bounds(prim as u32), one), "{prim} sticks out of its leaf"),
+            many => assert!(covered(&mesh.triangles[prim], many), "a part of {prim} is in no leaf"),
         }
     }
-    assert!(seen.iter().all(|&times| times == 1), "each primitive lies in one leaf");
-    assert_eq!(tree.order.len(), prims.len());
+    assert_eq!(tree.order.len(), boxes.iter().map(Vec::len).sum::<usize>(), "each entry is in one leaf");
     check_nodes(tree, width);
+}
+
+/// Whether many points of a triangle each lie in a box, but for their own rounding.
+fn covered(triangle: &[Point3; 3], boxes: &[Bounds3]) -> bool {
+    let size = triangle.iter().flat_map(|p| p.to_array()).fold(0f32, |m, x| m.max(x.abs()));
+    let slack = 1e-15 * f64::from(size);
+    let lies_in = |b: &Bounds3, p: [f64; 3]| {
+        (0..3).all(|a| f64::from(b.min[a]) - slack <= p[a] && p[a] <= f64::from(b.max[a]) + slack)
+    };
+    let mut points = (0..=24).flat_map(|i| (0..=24 - i).map(move |j| [i, j, 24 - i - j]));
+    points.all(|weights| {
+        let at = |a: usize| (0..3).map(|k| f64::from(triangle[k][a]) * f64::from(weights[k]) / 24.0).sum();
+        let point = [at(0), at(1), at(2)];
+        boxes.iter().any(|b| lies_in(b, point))
+    })
 }
 
 /// The part of `check` that is about nodes.

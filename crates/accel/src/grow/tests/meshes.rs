@@ -1,7 +1,7 @@
 //! Things to grow trees over.
 use durer_core::math::{Bounds3, Point3};
 
-use super::super::Primitives;
+use super::super::{Primitives, clip::clip};
 
 /// Triangles, or boxes around them that must stay alone.
 #[derive(Clone, Default)]
@@ -21,8 +21,8 @@ impl Primitives for Mesh {
     fn packs(&self, prim: u32) -> bool {
         self.alone == 0 || !prim.is_multiple_of(self.alone)
     }
-    fn clip(&self, _: u32, _: &Bounds3, _: usize, _: f32) -> Option<[Bounds3; 2]> {
-        None
+    fn clip(&self, prim: u32, within: &Bounds3, axis: usize, at: f32) -> Option<[Bounds3; 2]> {
+        self.packs(prim).then(|| clip(&self.triangles[prim as usize], within, axis, at))
     }
 }
 

@@ -1,17 +1,29 @@
 //! The collapse against all possible collapses.
+use std::{cell::RefCell, collections::HashMap};
+
 use super::super::{
     PACKET, Preset, Primitives,
     binary::{Binary, Node},
-    grow, top_down,
+    collapse::collapse,
+    grow,
+    reinsert::{Effort, reinsert},
+    top_down,
 };
 use super::meshes::Mesh;
 
-/// Cost of the cheapest forest of at most `most` trees below a node, by trying everything; `split` if it must not be
-/// one tree.
+/// Cost of the cheapest forest of at most `most` trees below a node, by trying everything.
 struct Exhaustive<'a> {
     tree: &'a Binary,
     mesh: &'a Mesh,
     width: usize,
+    /// `forests` known already.
+    known: RefCell<HashMap<(u32, usize), f64>>,
+}
+
+impl<'a> Exhaustive<'a> {
+    fn new(tree: &'a Binary, mesh: &'a Mesh, width: usize) -> Self {
+        Self { tree, mesh, width, known: RefCell::default() }
+    }
 }
 
 impl Exhaustive<'_> {
@@ -40,7 +52,12 @@ impl Exhaustive<'_> {
         let below = |name, most| {
             if most == 1 { self.one(name) } else { self.one(name).min(self.forests(name, most)) }
         };
-        (1..most).map(|k| below(left, k) + below(right, most - k)).fold(f64::INFINITY, f64::min)
+        if let Some(&cost) = self.known.borrow().get(&(name, most)) {
+            return cost;
+        }
+        let cost = (1..most).map(|k| below(left, k) + below(right, most - k)).fold(f64::INFINITY, f64::min);
+        self.known.borrow_mut().insert((name, most), cost);
+        cost
     }
     /// What is gained by opening the largest child until all slots are taken.
     fn greedy(&self, name: u32) -> f64 {
@@ -65,11 +82,16 @@ impl Exhaustive<'_> {
 
 /// The cost of the tree that `grow` makes, in the unit of the binary tree.
 fn cost(tree: &Binary, mesh: &Mesh, width: usize) -> f64 {
-    let wide = super::super::collapse::collapse(tree, mesh, width);
+    let wide = collapse(tree, mesh, width).expect("not too deep");
     let area = |c: &super::Child| f64::from(tree.unit.area(&super::super::hull::Hull::new(&c.bounds)));
     let is_leaf = wide.nodes.len() == 2 && wide.children.len() == 1;
     let root = if is_leaf { 0.0 } else { f64::from(tree.unit.area(&tree.nodes[0].0)) };
     root + wide.children.iter().map(area).sum::<f64>()
+}
+
+fn binary(mesh: &Mesh, leaf_max: usize) -> Binary {
+    let (items, unit) = top_down::references(mesh);
+    top_down::build(mesh, items, unit, leaf_max)
 }
 
 #[test]
@@ -79,8 +101,8 @@ fn no_collapse_of_a_small_tree_is_cheaper() {
     {
         for size in [0.02, 0.3, 2.0] {
             let mesh = Mesh { alone, ..Mesh::soup(n, size) };
-            let tree = top_down::build(&mesh);
-            let least = Exhaustive { tree: &tree, mesh: &mesh, width }.one(0);
+            let tree = binary(&mesh, 1);
+            let least = Exhaustive::new(&tree, &mesh, width).one(0);
             let found = cost(&tree, &mesh, width);
             assert!(
                 (found - least).abs() <= 1e-5 * least,
@@ -95,9 +117,9 @@ fn greedy_collapse_is_never_cheaper() {
     for mesh in
         [Mesh::soup(3000, 0.02), Mesh::blob(20), Mesh::rooms(300), Mesh { alone: 1, ..Mesh::rooms(100) }]
     {
-        let tree = top_down::build(&mesh);
+        let tree = binary(&mesh, 1);
         for width in [8, 16] {
-            let greedy = Exhaustive { tree: &tree, mesh: &mesh, width }.greedy(0);
+            let greedy = Exhaustive::new(&tree, &mesh, width).greedy(0);
             let found = cost(&tree, &mesh, width);
             assert!(found < 0.99 * greedy, "{width}: {found} against {greedy}");
         }
@@ -109,4 +131,24 @@ fn a_wider_node_costs_less() {
     let mesh = Mesh::rooms(500);
     let [eight, sixteen] = [8, 16].map(|width| super::sah_cost(&grow(&mesh, width, Preset::Balanced)));
     assert!(sixteen < eight, "{sixteen} against {eight}");
+}
+
+#[test]
+fn reinsertion_never_costs() {
+    for (mesh, leaf_max) in
+        [(Mesh::soup(3000, 0.2), 1), (Mesh::blob(20), 4), (Mesh::rooms(300), 1), (Mesh::rooms(300), 8)]
+    {
+        let mut tree = binary(&mesh, leaf_max);
+        let cost =
+            |tree: &Binary| tree.nodes.iter().map(|node| f64::from(tree.unit.area(&node.0))).sum::<f64>();
+        let mut before = cost(&tree);
+        for round in 0..5 {
+            reinsert(&mut tree, Effort { rounds: 1, fraction: 0.3 });
+            let after = cost(&tree);
+            assert!(after <= before * 1.000001, "round {round}: {after} from {before}");
+            assert!(round > 0 || after < before, "the first round finds something");
+            before = after;
+        }
+        super::check(&collapse(&tree, &mesh, 16).expect("not too deep"), &mesh, 16);
+    }
 }
