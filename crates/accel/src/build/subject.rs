@@ -3,7 +3,7 @@ use durer_core::math::{Bounds3, Point3, Transform};
 
 use super::source::{Key, Quads};
 use crate::{
-    grow::Primitives,
+    grow::{Primitives, clip::clip},
     layout::{Link, Target},
     slab::grown,
 };
@@ -150,8 +150,11 @@ impl Primitives for Subject<'_> {
         !matches!(self.find(prim).0, Part::Items(_) | Part::Instances(_))
     }
     fn clip(&self, prim: u32, within: &Bounds3, axis: usize, at: f32) -> Option<[Bounds3; 2]> {
-        let _ = (prim, within, axis, at);
-        None
+        if self.moves {
+            return None;
+        }
+        let (_, [triangle, _]) = self.triangle(prim)?;
+        Some(clip(&triangle, within, axis, at))
     }
 }
 

@@ -72,7 +72,9 @@ fn ids(triangles: &[(u32, [[Point3; 3]; 2])]) -> [u32; PACKET] {
     std::array::from_fn(|i| triangles.get(i).unwrap_or(&triangles[0]).0)
 }
 
+#[inline(always)]
 fn corner(points: &Points, lane: usize) -> Point3 {
+    let lane = lane % PACKET;
     Point3::new(points[0][lane], points[1][lane], points[2][lane])
 }
 
@@ -91,8 +93,10 @@ impl PacketRecord for Packet {
     fn ids(&self) -> &[u32; PACKET] {
         &self.ids
     }
+    #[inline(always)]
     fn triangle(&self, lane: usize, _: f32) -> [Point3; 3] {
-        self.vertices.each_ref().map(|points| corner(points, lane))
+        let [a, b, c] = &self.vertices;
+        [corner(a, lane), corner(b, lane), corner(c, lane)]
     }
     fn of(triangles: &[(u32, [[Point3; 3]; 2])]) -> Self {
         Self { vertices: points(triangles, 0), ids: ids(triangles) }

@@ -10,6 +10,6 @@ mod stack;
 mod x86;
 
 pub(crate) use pages::{Pages, ROW, Record};
-pub(crate) use stack::Stack;
+pub(crate) use stack::{Slots, Stack};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::{Avx2, Avx512};

@@ -3,7 +3,7 @@ use super::{Cx, Kernel, Level, leaf::Leaves};
 use crate::{
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
-    simd::Stack,
+    simd::{Slots, Stack},
     tree::{Tree, Trees},
 };
 
@@ -43,7 +43,8 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
     }
     let Some(mut link) = tree.root else { return false };
     let ray = leaves.box_ray();
-    let mut stack = Stack::new();
+    let mut slots = Slots::new();
+    let mut stack = Stack::new(&mut slots);
     loop {
         if let Target::Node(row) = link.target() {
             if W::ACTIVE {

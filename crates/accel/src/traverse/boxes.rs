@@ -21,7 +21,7 @@ pub(crate) struct BoxRay<V> {
 }
 
 #[inline(always)]
-fn splat<V: Lanes>(token: V::Token, [x, y, z]: [f32; 3]) -> [V; 3] {
+fn splat<V: Lanes>(token: V::Token, [x, y, z, _]: [f32; 4]) -> [V; 3] {
     [V::splat(token, x), V::splat(token, y), V::splat(token, z)]
 }
 

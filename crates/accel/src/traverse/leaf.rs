@@ -98,12 +98,32 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         let packet: &R = self.tree.pages.get(row);
         let mut bits = self.test(packet, best.t);
         while bits != 0 {
-            let hit = self.lane(row, packet, bits.trailing_zeros());
+            let lane = bits.trailing_zeros();
             bits &= bits - 1;
-            if self.wins(&hit, best) && (!self.cx.checks || self.triangle_counts(packet, &hit)) {
-                *best = hit;
+            let at = lane as usize % PACKET;
+            let t = self.found.t[at];
+            if t > best.t || (t == best.t && !self.wins_tie(row, packet, lane, best)) {
+                continue;
             }
+            if self.cx.checks && !self.triangle_counts(packet, &self.lane(row, packet, lane)) {
+                continue;
+            }
+            // PERF: field by field: a hit written in parts and copied as a whole stalls (bench kernel).
+            best.t = t;
+            best.u = self.found.u[at];
+            best.v = self.found.v[at];
+            best.place.instance = self.level.instance;
+            best.place.id = packet.ids()[at];
+            best.place.row = row;
+            best.place.lane = lane;
         }
+    }
+
+    /// Of two hits as near the one with the smaller name counts.
+    #[cold]
+    #[inline(never)]
+    fn wins_tie(&self, row: u32, packet: &R, lane: u32, best: &Best) -> bool {
+        self.wins(&self.lane(row, packet, lane), best)
     }
 
     #[inline(always)]
@@ -124,7 +144,6 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     }
 
     /// Nearer, or as near with a smaller name.
-    #[inline(always)]
     fn wins(&self, hit: &Best, best: &Best) -> bool {
         hit.t < best.t || (hit.t == best.t && self.cx.rank(&hit.place) < self.cx.rank(&best.place))
     }

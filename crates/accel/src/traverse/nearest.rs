@@ -4,7 +4,7 @@ use crate::{
     lanes::Lanes,
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
-    simd::Stack,
+    simd::{Slots, Stack},
     tree::{Tree, Trees},
 };
 
@@ -50,7 +50,8 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
     let Some(mut link) = tree.root else { return };
     let ray = leaves.box_ray();
     let mut nears = <K::Boxes as Lanes>::ZEROS;
-    let mut stack = Stack::new();
+    let mut slots = Slots::new();
+    let mut stack = Stack::new(&mut slots);
     loop {
         if let Target::Node(row) = link.target() {
             if W::ACTIVE {
@@ -91,36 +92,51 @@ fn put_aside<K: Kernel, N: BoxNode<K::Boxes>>(
     node: &N,
     nears: &<K::Boxes as Lanes>::Array,
     (first, mut hit): (u32, u32),
-    stack: &mut Stack,
+    stack: &mut Stack<'_>,
 ) -> Link {
-    let child = |lane: u32| {
-        let link = node.link(lane);
-        entry(nears.as_ref()[lane as usize], link)
-    };
+    let child = |lane: u32| entry(nears.as_ref()[lane as usize], node.link(lane));
     let a = child(first);
     let second = hit.trailing_zeros();
     hit &= hit - 1;
     let b = child(second);
     kernel.prefetch(tree.pages.address(Link(b as u32)));
     if hit == 0 {
-        let (near, far) = if a <= b { (a, b) } else { (b, a) };
-        stack.push(far);
-        return Link(near as u32);
+        // PERF: a branch, not a choice of values: the processor goes on with its guess (bench kernel).
+        if b < a {
+            stack.push(a);
+            return Link(guess(b));
+        }
+        stack.push(b);
+        return Link(guess(a));
     }
-    stack.push(a.max(b));
-    stack.push(a.min(b));
-    let mut count = 2;
-    while hit != 0 {
+    let mut nearest = a;
+    if b < a {
+        stack.push(a);
+        nearest = b;
+    } else {
+        stack.push(b);
+    }
+    let mut count = 1;
+    loop {
         let lane = hit.trailing_zeros();
         hit &= hit - 1;
         let c = child(lane);
         kernel.prefetch(tree.pages.address(Link(c as u32)));
-        stack.push(c);
+        if c < nearest {
+            stack.push(nearest);
+            nearest = c;
+        } else {
+            stack.insert(c, count);
+        }
         count += 1;
-        stack.settle(count);
+        if hit == 0 {
+            return Link(guess(nearest));
+        }
     }
-    match stack.pop() {
-        Some(nearest) => Link(nearest as u32),
-        None => Link(a as u32),
-    }
+}
+
+/// The link of an entry, behind a veil: so that two branches that differ by their entry only stay branches.
+#[inline(always)]
+fn guess(entry: u64) -> u32 {
+    entry as u32
 }
