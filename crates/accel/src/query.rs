@@ -6,7 +6,6 @@ use crate::{
     isa::Registers,
     layout::{MovingPacket, Packet, PacketRecord},
     probe::{Sink, Told, Unwatched, Watch},
-    space::Space,
     traverse::{Best, Cx, Kernel, Level, Place, SCENE, exhaustive_blocked, exhaustive_nearest},
     tree::{Forest, Trees},
     user::Callback,
@@ -172,13 +171,7 @@ impl<'a> Cx<'a> {
     /// Runs `visit` on the trees of the scene until it says true.
     #[inline(always)]
     fn each(&self, ray: &Ray, mut visit: impl FnMut(&Level<'_>) -> bool) -> bool {
-        let mut level = |forest: &Forest| {
-            let space = match self.accel.precision {
-                Precision::Robust => Space::new::<true>(ray, forest.region),
-                Precision::Fast => Space::new::<false>(ray, forest.region),
-            };
-            space.is_some_and(|space| visit(&Level { space, forest, instance: SCENE, floor: f32::MIN }))
-        };
+        let mut level = |forest: &Forest| visit(&Level { ray, forest, instance: SCENE, floor: f32::MIN });
         let found = level(&self.accel.scene);
         match &self.accel.movers {
             Some(movers) if !found || self.exhaustive => level(&movers.forest) || found,

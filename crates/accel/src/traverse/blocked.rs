@@ -4,6 +4,7 @@ use crate::{
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
     simd::{Slots, Stack},
+    space::Space,
     tree::{Tree, Trees},
 };
 
@@ -17,13 +18,15 @@ pub(crate) fn blocked<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) -> bool {
     let tree = level.tree();
+    let Some(space) = Space::new::<ROBUST>(level.ray, level.forest.region) else { return false };
     match &level.forest.trees {
         Trees::Still(_) => {
-            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
             walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
         }
         Trees::Moving { .. } => {
-            let mut leaves = Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            let mut leaves =
+                Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
             walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
         }
     }

@@ -4,6 +4,7 @@ use crate::{
     lanes::Portable,
     layout::{Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
+    space::Space,
     tree::Trees,
 };
 
@@ -30,17 +31,18 @@ pub(crate) fn exhaustive_blocked<W: Watch>(
 
 fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: &mut Best, watch: &mut W) {
     let (tree, moment) = level.tree();
-    let world = &level.space;
+    let Some(world) = Space::new::<true>(level.ray, level.forest.region) else { return };
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {
-            let Some((admitted, entered)) = cx.window(index, world, best.t) else { continue };
-            cx.inside::<true, _>(index, world, entered, |level| {
+            let Some((admitted, entered)) = cx.window(index, &world, best.t) else { continue };
+            cx.inside(index, &world, entered, |level| {
                 // What the box excludes is tested too, and the result forgotten.
                 let mut scratch = *best;
                 exhaustive_nearest(cx, level, if admitted { best } else { &mut scratch }, watch);
             });
         } else {
-            let mut leaves = Leaves::<_, R, W, true>::new(Portable, cx, level, (tree, moment), watch);
+            let mut leaves =
+                Leaves::<_, R, W, true>::new(Portable, cx, (level, &world), (tree, moment), watch);
             leaves.nearest(link, best);
         }
     }
@@ -48,17 +50,16 @@ fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: 
 
 fn all_blocked<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, t_max: f32, watch: &mut W) -> bool {
     let (tree, moment) = level.tree();
-    let world = &level.space;
+    let Some(world) = Space::new::<true>(level.ray, level.forest.region) else { return false };
     let mut blocked = false;
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {
-            let Some((admitted, entered)) = cx.window(index, world, t_max) else { continue };
-            let hit = cx.inside::<true, _>(index, world, entered, |level| {
-                exhaustive_blocked(cx, level, t_max, watch)
-            });
+            let Some((admitted, entered)) = cx.window(index, &world, t_max) else { continue };
+            let hit = cx.inside(index, &world, entered, |level| exhaustive_blocked(cx, level, t_max, watch));
             blocked |= admitted && hit == Some(true);
         } else {
-            let mut leaves = Leaves::<_, R, W, true>::new(Portable, cx, level, (tree, moment), watch);
+            let mut leaves =
+                Leaves::<_, R, W, true>::new(Portable, cx, (level, &world), (tree, moment), watch);
             blocked |= leaves.blocked(link, t_max);
         }
     }

@@ -7,6 +7,7 @@ use crate::{
     layout::{Link, PACKET, PacketRecord, Target},
     probe::Watch,
     slab::{Window, greater},
+    space::Space,
     tree::Tree,
     triangle::{self, Found, Reach},
 };
@@ -16,6 +17,7 @@ pub(crate) struct Leaves<'a, K, R, W, const ROBUST: bool> {
     kernel: K,
     cx: &'a Cx<'a>,
     level: &'a Level<'a>,
+    space: &'a Space<'a>,
     tree: &'a Tree,
     /// How far the tree's stretch of time has gone.
     moment: f32,
@@ -29,17 +31,17 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     pub(crate) fn new(
         kernel: K,
         cx: &'a Cx<'a>,
-        level: &'a Level<'a>,
+        (level, space): (&'a Level<'a>, &'a Space<'a>),
         (tree, moment): (&'a Tree, f32),
         watch: &'a mut W,
     ) -> Self {
         let found = Found { t: [0.0; PACKET], u: [0.0; PACKET], v: [0.0; PACKET] };
-        Self { kernel, cx, level, tree, moment, watch, found, packets: PhantomData }
+        Self { kernel, cx, level, space, tree, moment, watch, found, packets: PhantomData }
     }
 
     #[inline(always)]
     pub(crate) fn box_ray(&self) -> BoxRay<K::Boxes> {
-        let space = &self.level.space;
+        let space = self.space;
         BoxRay::new(self.kernel, &space.slab, space.ray.t_min, self.moment)
     }
 
@@ -72,7 +74,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
                 self.watch.primitive(instance, prim);
             }
         }
-        let space = &self.level.space;
+        let space = self.space;
         let reach = Reach { t_min: space.ray.t_min, t_max, floor: self.level.floor };
         let (kernel, moment) = (self.kernel, self.moment);
         triangle::packet::<K::Packets, R, ROBUST>(
@@ -158,7 +160,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         }
         if self.cx.culls && placed.seen.hides_backs {
             let [a, b, c] = packet.triangle(hit.place.lane as usize, self.moment);
-            let front = (b - a).cross(c - a).dot(self.level.space.ray.d) <= 0.0;
+            let front = (b - a).cross(c - a).dot(self.level.ray.d) <= 0.0;
             if front == placed.seen.is_reversed {
                 return false;
             }
@@ -178,7 +180,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     #[inline(never)]
     fn item_nearest(&mut self, item: u32, best: &mut Best) {
         let Some((instance, prim, window)) = self.item(item, best.t) else { return };
-        let ray = self.level.space.ray;
+        let ray = self.level.ray;
         let found = self.cx.callback.intersect(instance, prim, ray, best.t);
         let Some(PrimitiveHit { t, u, v }) = found else { return };
         let Some(t) = self.admit(t, window, best.t) else { return };
@@ -192,7 +194,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     #[inline(never)]
     fn item_blocks(&mut self, item: u32, t_max: f32) -> bool {
         let Some((instance, prim, window)) = self.item(item, t_max) else { return false };
-        let ray = self.level.space.ray;
+        let ray = self.level.ray;
         if !self.cx.filters {
             let blocks = self.cx.callback.occludes(instance, prim, ray, t_max);
             return blocks && window.admits(ray.t_min, t_max) && self.level.floor <= t_max;
@@ -210,7 +212,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         if self.cx.accel.instances[instance as usize].seen.mask & self.cx.mask == 0 {
             return None;
         }
-        let space = &self.level.space;
+        let space = self.space;
         let own = self.cx.accel.items(instance).own_box(prim);
         let window = own.map_or(Window::ALL, |b| space.slab.window(&b));
         let asks = window.admits(space.ray.t_min, t_max) || self.cx.exhaustive;
@@ -223,7 +225,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     /// The `t` a hit at `t` counts with: not before the ray enters the boxes (see the crate's contract). `None` if that
     /// leaves `[t_min, t_max]`.
     fn admit(&self, t: f32, window: Window, t_max: f32) -> Option<f32> {
-        let t_min = self.level.space.ray.t_min;
+        let t_min = self.level.ray.t_min;
         let raised = greater(greater(t, window.near), self.level.floor);
         let valid = window.admits(t_min, t_max) && t >= t_min && raised <= t_max;
         valid.then_some(raised)
@@ -232,7 +234,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     #[inline(always)]
     fn instance_nearest(&mut self, index: u32, best: &mut Best) {
         let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
-        cx.enter::<ROBUST, _>(index, &self.level.space, best.t, |level| {
+        cx.enter(index, self.space, best.t, |level| {
             kernel.nearest::<W, ROBUST>(cx, level, best, watch);
         });
     }
@@ -240,9 +242,8 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     #[inline(always)]
     fn instance_blocks(&mut self, index: u32, t_max: f32) -> bool {
         let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
-        let blocked = cx.enter::<ROBUST, _>(index, &self.level.space, t_max, |level| {
-            kernel.blocked::<W, ROBUST>(cx, level, t_max, watch)
-        });
+        let blocked =
+            cx.enter(index, self.space, t_max, |level| kernel.blocked::<W, ROBUST>(cx, level, t_max, watch));
         blocked == Some(true)
     }
 }

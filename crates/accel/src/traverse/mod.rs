@@ -9,7 +9,7 @@ mod kernel;
 mod leaf;
 mod nearest;
 
-use durer_core::math::Segment;
+use durer_core::math::{Ray, Segment};
 
 use crate::{
     Accel,
@@ -46,7 +46,8 @@ pub(crate) const SCENE: u32 = u32::MAX;
 
 /// A ray in a tree's own space.
 pub(crate) struct Level<'a> {
-    pub(crate) space: Space<'a>,
+    /// In the tree's own space. Borrowed. PERF: a ray just written in parts and copied as a whole stalls (bench render).
+    pub(crate) ray: &'a Ray,
     pub(crate) forest: &'a Forest,
     /// Whose tree it is, or [`SCENE`].
     pub(crate) instance: u32,
@@ -61,7 +62,7 @@ impl Level<'_> {
         match &self.forest.trees {
             Trees::Still(tree) => (tree, 0.0),
             Trees::Moving { times, trees } => {
-                let at = Segment::at(self.space.ray.time, times.len(), |i| times[i]);
+                let at = Segment::at(self.ray.time, times.len(), |i| times[i]);
                 (&trees[at.key], at.u)
             }
         }
@@ -119,7 +120,7 @@ impl Cx<'_> {
 
     /// Runs `visit` with the ray in the space of instance `index`, whose box it enters at `floor`.
     #[inline(always)]
-    fn inside<const ROBUST: bool, R>(
+    fn inside<R>(
         &self,
         index: u32,
         world: &Space<'_>,
@@ -130,13 +131,12 @@ impl Cx<'_> {
         let forest = self.accel.geometries[instance.geometry.index()].forest.as_ref()?;
         let object_ray = instance.pose.object_ray(world.ray);
         let ray = object_ray.as_ref().unwrap_or(world.ray);
-        let space = Space::new::<ROBUST>(ray, forest.region)?;
-        Some(visit(&Level { space, forest, instance: index, floor: greater(floor, f32::MIN) }))
+        Some(visit(&Level { ray, forest, instance: index, floor: greater(floor, f32::MIN) }))
     }
 
     /// The same, if the ray enters the box before `t_max`.
     #[inline(always)]
-    fn enter<const ROBUST: bool, R>(
+    fn enter<R>(
         &self,
         index: u32,
         world: &Space<'_>,
@@ -144,6 +144,6 @@ impl Cx<'_> {
         visit: impl FnOnce(&Level<'_>) -> R,
     ) -> Option<R> {
         let (admitted, floor) = self.window(index, world, t_max)?;
-        if admitted { self.inside::<ROBUST, R>(index, world, floor, visit) } else { None }
+        if admitted { self.inside(index, world, floor, visit) } else { None }
     }
 }

@@ -5,6 +5,7 @@ use crate::{
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
     simd::{Slots, Stack},
+    space::Space,
     tree::{Tree, Trees},
 };
 
@@ -18,13 +19,15 @@ pub(crate) fn nearest<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) {
     let tree = level.tree();
+    let Some(space) = Space::new::<ROBUST>(level.ray, level.forest.region) else { return };
     match &level.forest.trees {
         Trees::Still(_) => {
-            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
             walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, best);
         }
         Trees::Moving { .. } => {
-            let mut leaves = Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, level, tree, watch);
+            let mut leaves =
+                Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
             walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, best);
         }
     }
