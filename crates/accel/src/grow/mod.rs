@@ -26,8 +26,9 @@ mod spatial;
 mod tests;
 mod top_down;
 
-use binary::Binary;
+use binary::{Binary, Item};
 use durer_core::math::Bounds3;
+use hull::{AreaUnit, Hull};
 use reinsert::Effort;
 
 /// How much work goes into a tree.
@@ -89,15 +90,20 @@ pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> Wid
         return WideTree::default();
     }
     let plan = Plan::of(preset);
-    let mut tree = plan.binary(prims);
-    if let Some(effort) = plan.effort {
-        reinsert::reinsert(&mut tree, effort);
+    let (items, unit) = top_down::references(prims);
+    let whole = plan.whole(prims, items, unit, width);
+    match plan.cuts.then(|| plan.in_pieces(prims, unit, width)).flatten() {
+        // Cuts do not pay for themselves everywhere, least of all where reinsertion has done the same.
+        Some(pieces) if pieces.area(&unit) < whole.area(&unit) => pieces,
+        _ => whole,
     }
-    if let Some(wide) = collapse::collapse(&tree, prims, width) {
-        return wide;
+}
+
+impl WideTree {
+    /// The areas of all children, to which the cost of a tree is proportional.
+    fn area(&self, unit: &AreaUnit) -> f64 {
+        self.children.iter().map(|child| f64::from(unit.area(&Hull::new(&child.bounds)))).sum()
     }
-    // Reinsertion has made a tree that is too deep; without it that cannot be.
-    collapse::collapse(&plan.binary(prims), prims, width).expect("a binary tree that is not too deep")
 }
 
 /// What a preset does.
@@ -105,6 +111,7 @@ struct Plan {
     /// Most primitives in a leaf of the binary tree.
     leaf_max: usize,
     effort: Option<Effort>,
+    /// Whether to try with primitives in pieces too.
     cuts: bool,
 }
 
@@ -121,12 +128,30 @@ impl Plan {
         }
     }
 
-    /// The tree as it is without reinsertion.
-    fn binary(&self, prims: &impl Primitives) -> Binary {
-        let (mut items, unit) = top_down::references(prims);
-        if self.cuts {
-            items = spatial::pieces(prims, items, unit);
+    /// The tree over uncut primitives.
+    fn whole(&self, prims: &impl Primitives, items: Vec<Item>, unit: AreaUnit, width: usize) -> WideTree {
+        let tree = top_down::build(prims, items, None, unit, self.leaf_max);
+        self.wide(prims, tree, width).unwrap_or_else(|| {
+            // Reinsertion has made a tree that is too deep; without it that cannot be.
+            let (items, unit) = top_down::references(prims);
+            let tree = top_down::build(prims, items, None, unit, self.leaf_max);
+            collapse::collapse(&tree, prims, width).expect("a binary tree that is not too deep")
+        })
+    }
+
+    /// The tree over primitives some of which are cut, if any are.
+    fn in_pieces(&self, prims: &impl Primitives, unit: AreaUnit, width: usize) -> Option<WideTree> {
+        let (items, _) = top_down::references(prims);
+        let pieces = spatial::cut(prims, items, unit)?;
+        let tree = top_down::build(prims, pieces.items, Some(pieces.top), unit, self.leaf_max);
+        self.wide(prims, tree, width)
+    }
+
+    /// Reinserts and collapses.
+    fn wide(&self, prims: &impl Primitives, mut tree: Binary, width: usize) -> Option<WideTree> {
+        if let Some(effort) = self.effort {
+            reinsert::reinsert(&mut tree, effort);
         }
-        top_down::build(prims, items, unit, self.leaf_max)
+        collapse::collapse(&tree, prims, width)
     }
 }

@@ -91,6 +91,16 @@ fn the_scale_of_a_scene_does_not_matter() {
 }
 
 #[test]
+fn what_costs_most_to_build_costs_least_to_walk() {
+    let mesh = Mesh::rooms(1000);
+    let [fast, balanced, high] = PRESETS.map(|preset| sah_cost(&grow(&mesh, 16, preset)));
+    assert!(high < 0.98 * balanced && balanced < 0.98 * fast, "{fast} {balanced} {high}");
+    let tree = grow(&mesh, 16, Preset::High);
+    assert!(tree.order.len() > mesh.len(), "some are cut");
+    assert!(tree.order.len() <= mesh.len() * 5 / 4, "but not too many");
+}
+
+#[test]
 fn threads_do_not_change_the_tree() {
     let bits = |b: &Bounds3| [b.min, b.max].map(|p| p.to_array().map(f32::to_bits));
     let grown = |mesh: &Mesh, preset, threads| {

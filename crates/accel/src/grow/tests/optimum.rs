@@ -91,7 +91,7 @@ fn cost(tree: &Binary, mesh: &Mesh, width: usize) -> f64 {
 
 fn binary(mesh: &Mesh, leaf_max: usize) -> Binary {
     let (items, unit) = top_down::references(mesh);
-    top_down::build(mesh, items, unit, leaf_max)
+    top_down::build(mesh, items, None, unit, leaf_max)
 }
 
 #[test]
