@@ -2,7 +2,6 @@
 mod invariants;
 mod meshes;
 mod optimum;
-mod speed;
 
 use durer_core::math::{Bounds3, Point3};
 
