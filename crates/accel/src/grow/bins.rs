@@ -2,7 +2,7 @@
 //! plane between slices follows from two sweeps, all three axes at once.
 //!
 //! The cost of a side is its area times `n + 4`: what n primitives cost once they are in packets of which most are not
-//! full. On the scenes of `tests::speed` this gives trees that are up to 1 % cheaper than with n alone.
+//! full. On a sphere, a columned hall, rooms and random triangles collapsed trees cost 0.1 to 1.5 % less than with n.
 use wide::f32x4;
 
 use super::{

@@ -18,13 +18,14 @@ pub(crate) fn clip(triangle: &[Point3; 3], within: &Bounds3, axis: usize, at: f3
         }
         if (a[axis] < at && at < b[axis]) || (b[axis] < at && at < a[axis]) {
             let meeting = meeting(a, b, axis, at);
-            parts = parts.map(|part| part.union(meeting));
+            parts = [parts[0].union(meeting), parts[1].union(meeting)];
         }
     }
-    parts.map(|part| {
+    let common = |part: Bounds3| {
         let common = Bounds3 { min: part.min.max(within.min), max: part.max.min(within.max) };
         if common.is_empty() { Bounds3::EMPTY } else { common }
-    })
+    };
+    [common(parts[0]), common(parts[1])]
 }
 
 /// A box that contains the point where an edge meets the plane.
@@ -44,7 +45,7 @@ fn meeting(a: &Point3, b: &Point3, axis: usize, at: f32) -> Bounds3 {
             ((value + error) as f32).next_up().min(a[i].max(b[i])),
         )
     };
-    let [x, y, z] = [0, 1, 2].map(range);
+    let (x, y, z) = (range(0), range(1), range(2));
     Bounds3 { min: Point3::new(x.0, y.0, z.0), max: Point3::new(x.1, y.1, z.1) }
 }
 

@@ -26,19 +26,23 @@ mod spatial;
 mod tests;
 mod top_down;
 
-use binary::Binary;
+use binary::{Binary, Item};
 use durer_core::math::Bounds3;
+use hull::{AreaUnit, Hull};
 use reinsert::Effort;
 
-/// How much work goes into a tree.
+/// How much work goes into a tree. Times are for one busy core of a 2023 server; threads share the work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
-    /// For geometry that changes from frame to frame.
+    /// For geometry that changes from frame to frame: full leaves, nothing improved afterwards. About 3 million triangles
+    /// a second, with 65 bytes for each while building.
     Fast,
-    /// For most pictures.
+    /// For most pictures: subtrees move to where they cost less. About 2 million triangles a second where there is
+    /// little to improve, half that where large triangles lie among small ones; 65 bytes for each.
     #[default]
     Balanced,
-    /// For pictures that take minutes.
+    /// For pictures that take minutes: more of that, down to single triangles, and once more with triangles in pieces if
+    /// boxes overlap much. From 0.7 million triangles a second down to 0.04 where all overlap; 100 to 220 bytes for each.
     High,
 }
 
@@ -89,15 +93,20 @@ pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> Wid
         return WideTree::default();
     }
     let plan = Plan::of(preset);
-    let mut tree = plan.binary(prims);
-    if let Some(effort) = plan.effort {
-        reinsert::reinsert(&mut tree, effort);
+    let (items, unit) = top_down::references(prims);
+    let whole = plan.whole(prims, items, unit, width);
+    match plan.cuts.then(|| plan.in_pieces(prims, unit, width)).flatten() {
+        // Cuts do not pay for themselves everywhere, least of all where reinsertion has done the same.
+        Some(pieces) if pieces.area(&unit) < whole.area(&unit) => pieces,
+        _ => whole,
     }
-    if let Some(wide) = collapse::collapse(&tree, prims, width) {
-        return wide;
+}
+
+impl WideTree {
+    /// The areas of all children, to which the cost of a tree is proportional.
+    fn area(&self, unit: &AreaUnit) -> f64 {
+        self.children.iter().map(|child| f64::from(unit.area(&Hull::new(&child.bounds)))).sum()
     }
-    // Reinsertion has made a tree that is too deep; without it that cannot be.
-    collapse::collapse(&plan.binary(prims), prims, width).expect("a binary tree that is not too deep")
 }
 
 /// What a preset does.
@@ -105,6 +114,7 @@ struct Plan {
     /// Most primitives in a leaf of the binary tree.
     leaf_max: usize,
     effort: Option<Effort>,
+    /// Whether to try with primitives in pieces too.
     cuts: bool,
 }
 
@@ -121,12 +131,30 @@ impl Plan {
         }
     }
 
-    /// The tree as it is without reinsertion.
-    fn binary(&self, prims: &impl Primitives) -> Binary {
-        let (mut items, unit) = top_down::references(prims);
-        if self.cuts {
-            items = spatial::pieces(prims, items, unit);
+    /// The tree over uncut primitives.
+    fn whole(&self, prims: &impl Primitives, items: Vec<Item>, unit: AreaUnit, width: usize) -> WideTree {
+        let tree = top_down::build(prims, items, None, unit, self.leaf_max);
+        self.wide(prims, tree, width).unwrap_or_else(|| {
+            // Reinsertion has made a tree that is too deep; without it that cannot be.
+            let (items, unit) = top_down::references(prims);
+            let tree = top_down::build(prims, items, None, unit, self.leaf_max);
+            collapse::collapse(&tree, prims, width).expect("a binary tree that is not too deep")
+        })
+    }
+
+    /// The tree over primitives some of which are cut, if any are.
+    fn in_pieces(&self, prims: &impl Primitives, unit: AreaUnit, width: usize) -> Option<WideTree> {
+        let (items, _) = top_down::references(prims);
+        let pieces = spatial::cut(prims, items, unit)?;
+        let tree = top_down::build(prims, pieces.items, Some(pieces.top), unit, self.leaf_max);
+        self.wide(prims, tree, width)
+    }
+
+    /// Reinserts and collapses.
+    fn wide(&self, prims: &impl Primitives, mut tree: Binary, width: usize) -> Option<WideTree> {
+        if let Some(effort) = self.effort {
+            reinsert::reinsert(&mut tree, effort);
         }
-        top_down::build(prims, items, unit, self.leaf_max)
+        collapse::collapse(&tree, prims, width)
     }
 }

@@ -42,7 +42,7 @@ impl Around {
 /// Moves the items left of `plane` to the front; returns how many.
 pub(super) fn by_plane(items: &mut [Item], plane: &Plane) -> usize {
     let mut left = 0;
-    // PERF: no branch to predict; an item on the right changes places with another on the right.
+    // No branch to predict: an item on the right changes places with another on the right.
     for i in 0..items.len() {
         let is_left = plane.is_left(&items[i]);
         items.swap(i, left);

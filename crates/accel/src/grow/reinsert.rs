@@ -25,6 +25,8 @@ pub(super) struct Effort {
     pub(super) fraction: f32,
 }
 
+/// The part of the first round's nodes that are tried before it, to see whether the tree is any good already.
+const PROBE: f32 = 0.1;
 /// A round that saves less than this part of the areas it looks at is the last.
 const WORTH: f64 = 1e-3;
 
@@ -52,8 +54,9 @@ pub(super) fn reinsert(tree: &mut Binary, effort: Effort) {
         }
     }
     let mut tree = Tree { nodes: &mut tree.nodes, parents, unit: tree.unit };
-    for round in 1..=effort.rounds {
-        let count = effort.fraction / round as f32 * tree.nodes.len() as f32;
+    let all = effort.fraction * tree.nodes.len() as f32;
+    let counts = (1..=effort.rounds).map(|round| all / round as f32);
+    for count in std::iter::once(PROBE * all).chain(counts) {
         if !tree.improve(count as usize) {
             break;
         }

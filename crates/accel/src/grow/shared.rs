@@ -33,7 +33,7 @@ pub(super) fn grow<P: Primitives>(grower: &Grower<P>, plot: Plot, items: &mut [I
     let mut spare = if items.len() > SHARED { vec![Item::ZERO; items.len()] } else { Vec::new() };
     let top = split(grower, plot, items, &mut spare, false);
     drop(spare);
-    run(grower, top, items)
+    run(grower, top, items, 0)
 }
 
 /// Splits while ranges are long. At each level items move from one of two places to the other; they end in that which
@@ -93,19 +93,26 @@ fn plane<P: Primitives>(grower: &Grower<P>, around: &Around, items: &[Item]) -> 
     Some((plane, counts))
 }
 
-/// Grows what is below the top.
-fn run<P: Primitives>(grower: &Grower<P>, top: Top<Plot>, items: &mut [Item]) -> Top<Vec<Item>> {
+/// Grows what is below the top of a tree over items, of which the first is number `first` of all.
+pub(super) fn run<P: Primitives>(
+    grower: &Grower<P>,
+    top: Top<Plot>,
+    items: &mut [Item],
+    first: u32,
+) -> Top<Vec<Item>> {
     match top {
         Top::Split { hull, middle, below } => {
             let [left, right] = *below;
             let (items_left, items_right) = items.split_at_mut(middle);
-            let (left, right) =
-                rayon::join(|| run(grower, left, items_left), || run(grower, right, items_right));
+            let (left, right) = rayon::join(
+                || run(grower, left, items_left, first),
+                || run(grower, right, items_right, first + middle as u32),
+            );
             Top::Split { hull, middle, below: Box::new([left, right]) }
         }
         Top::Task(plot) => {
             let mut nodes = Vec::with_capacity(2 * items.len().div_ceil(grower.leaf_max));
-            grower.grow(plot, items, &mut nodes);
+            grower.grow(Plot { first, ..plot }, items, &mut nodes);
             Top::Task(nodes)
         }
     }

@@ -1,30 +1,33 @@
 //! Cuts primitives that would make boxes overlap (Stich, Friedrich, Dietrich 2009, "Spatial Splits in Bounding Volume
 //! Hierarchies").
 //!
-//! A recursion as if to build a tree, choosing at each step between a split of the items and a cut of space; what it
-//! keeps are the pieces, over which the tree is then built. Space is cut only where the boxes of the best split overlap
-//! by more than a small part of the whole, and only while the number of pieces stays within a budget.
+//! The top of the tree, where each step is either a split of the items or a cut of space. Space is cut only where the
+//! boxes of the best split overlap much, where the cut is clearly cheaper, and while the number of pieces stays within a
+//! budget. What is below, where nothing is to be gained, is left to `top_down`.
 use durer_core::math::Bounds3;
 use rayon::prelude::*;
 use wide::f32x4;
 
 use super::{
-    DEPTH_MAX, Primitives,
+    Primitives,
     binary::Item,
-    bins::{Bins, Slices},
+    bins::{Bins, Plane, Slices},
     hull::{AreaUnit, Hull},
     partition::{self, Around},
-    shared::{CHUNK, around},
+    shared::{CHUNK, Top, around},
+    top_down::Plot,
 };
 
-/// Overlaps of a smaller part of the whole's area are left alone; nodes of a smaller area are not looked into.
-const OVERLAP: f32 = 1e-5;
+/// Nodes, and overlaps, with less than this part of the area of everything are left alone.
+const SMALL: f32 = 1e-5;
+/// So are overlaps with less than this part of their node's area: as soon as pieces are many, a little overlap costs less.
+const OVERLAP: f32 = 0.3;
 /// Pieces at most, per primitive, beyond the first.
 const BUDGET: f32 = 0.25;
 /// Slabs that space is cut into, per axis.
 const SLABS: usize = 16;
 /// A cut must cost less than this part of what a split costs.
-const CHEAPER: f32 = 0.95;
+const CHEAPER: f32 = 0.8;
 /// Items that a cut adds to both sides' costs, as for splits.
 const OVERHEAD: f32 = 4.0;
 /// Fewer items than this are not cut: they fit a packet.
@@ -45,30 +48,30 @@ struct Cutter<'a, P> {
     area: f32,
 }
 
-/// `items`, some of them in pieces.
-pub(super) fn pieces(prims: &impl Primitives, items: Vec<Item>, unit: AreaUnit) -> Vec<Item> {
+/// Items, some of them in pieces, and the top of a tree over them.
+pub(super) struct Pieces {
+    pub(super) items: Vec<Item>,
+    pub(super) top: Top<Plot>,
+}
+
+/// Cuts some of the items; `None` if none is worth cutting.
+pub(super) fn cut(prims: &impl Primitives, items: Vec<Item>, unit: AreaUnit) -> Option<Pieces> {
+    let n = items.len();
     let around = around(&items);
-    let budget = (BUDGET * items.len() as f32) as usize;
-    Cutter { prims, unit, area: unit.area(&around.hull) }.cut(items, around, budget, 0)
+    let budget = (BUDGET * n as f32) as usize;
+    let cutter = Cutter { prims, unit, area: unit.area(&around.hull) };
+    let pieces = cutter.cut(items, Plot { first: 0, depth: 0, around }, budget);
+    (pieces.items.len() > n).then_some(pieces)
 }
 
 impl<P: Primitives> Cutter<'_, P> {
     /// The pieces of a range, at most `budget` more than there are items.
-    fn cut(&self, mut items: Vec<Item>, around: Around, budget: usize, depth: u32) -> Vec<Item> {
-        let least = OVERLAP * self.area;
-        if items.len() <= FEW || budget == 0 || depth >= DEPTH_MAX || self.unit.area(&around.hull) <= least {
-            return items;
-        }
-        let slices = Slices::new(&around.centers, items.len());
-        let bins: Vec<Bins> = items.par_chunks(CHUNK).map(|chunk| Bins::new(&slices, chunk)).collect();
-        let Some(plane) = Bins::sum(&bins).best(&slices, items.len(), &self.unit) else { return items };
-        let overlap = Hull {
-            lo: plane.hulls[0].lo.fast_max(plane.hulls[1].lo),
-            hi: plane.hulls[0].hi.fast_min(plane.hulls[1].hi),
-        };
-        let overlaps = overlap.extent().iter().all(|&e| e >= 0.0) && self.unit.area(&overlap) > least;
-        let cut = if overlaps { self.best(&items, &around.hull) } else { None };
+    fn cut(&self, mut items: Vec<Item>, plot: Plot, budget: usize) -> Pieces {
         let n = items.len();
+        let Some(plane) = self.plane(&items, &plot, budget) else {
+            return Pieces { items, top: Top::Task(plot) };
+        };
+        let cut = if self.overlaps(&plane, &plot) { self.best(&items, &plot.around.hull) } else { None };
         let sides =
             cut.filter(|cut| cut.cost < CHEAPER * plane.cost).and_then(|cut| self.sides(&items, &cut));
         let sides = sides.filter(|[left, right]| left.len() + right.len() <= n + budget);
@@ -79,24 +82,49 @@ impl<P: Primitives> Cutter<'_, P> {
         });
         drop(items);
         let budget = budget + n - (left.len() + right.len());
-        self.below([left, right], budget, depth + 1)
+        let [mut left, right] = self.below([left, right], &plot, budget);
+        let middle = left.items.len();
+        let below = Box::new([left.top, right.top]);
+        left.items.extend(right.items);
+        Pieces { items: left.items, top: Top::Split { hull: plot.around.hull, middle, below } }
+    }
+
+    /// The plane for a split of a range that is worth looking into.
+    fn plane(&self, items: &[Item], plot: &Plot, budget: usize) -> Option<Plane> {
+        let n = items.len();
+        let small = self.unit.area(&plot.around.hull) <= SMALL * self.area;
+        if n <= FEW || budget == 0 || small || !plot.has_levels_for(n + budget) {
+            return None;
+        }
+        let slices = Slices::new(&plot.around.centers, n);
+        let bins: Vec<Bins> = items.par_chunks(CHUNK).map(|chunk| Bins::new(&slices, chunk)).collect();
+        Bins::sum(&bins).best(&slices, n, &self.unit)
+    }
+
+    /// Whether the sides of a plane overlap enough to think of a cut.
+    fn overlaps(&self, plane: &Plane, plot: &Plot) -> bool {
+        let overlap = Hull {
+            lo: plane.hulls[0].lo.fast_max(plane.hulls[1].lo),
+            hi: plane.hulls[0].hi.fast_min(plane.hulls[1].hi),
+        };
+        let least = (SMALL * self.area).max(OVERLAP * self.unit.area(&plot.around.hull));
+        overlap.extent().iter().all(|&e| e >= 0.0) && self.unit.area(&overlap) > least
     }
 
     /// The pieces of two sides.
-    fn below(&self, [left, right]: [Vec<Item>; 2], budget: usize, depth: u32) -> Vec<Item> {
+    fn below(&self, [left, right]: [Vec<Item>; 2], plot: &Plot, budget: usize) -> [Pieces; 2] {
         let (n_left, n) = (left.len() as u64, (left.len() + right.len()) as u64);
         let share = (budget as u64 * n_left / n) as usize;
         let cut = |items: Vec<Item>, budget| {
-            let around = Around::new(&items);
-            self.cut(items, around, budget, depth)
+            let plot = Plot { first: 0, depth: plot.depth + 1, around: Around::new(&items) };
+            self.cut(items, plot, budget)
         };
-        let (mut pieces, right) = if n > CHUNK as u64 {
+        let (left, right) = if n > CHUNK as u64 {
             rayon::join(|| cut(left, share), || cut(right, budget - share))
         } else {
             (cut(left, share), cut(right, budget - share))
         };
-        pieces.extend(right);
-        pieces
+        [left, right]
     }
 
     /// The cheapest cut through the box around items.
@@ -142,16 +170,18 @@ impl<P: Primitives> Cutter<'_, P> {
 struct Slabs {
     origin: [f32; 3],
     width: [f32; 3],
+    /// Slabs per unit of length.
+    scale: [f32; 3],
 }
 
 impl Slabs {
     fn new(bounds: &Bounds3) -> Self {
         let width = [0, 1, 2].map(|a| (bounds.max[a] - bounds.min[a]) / SLABS as f32);
-        Self { origin: bounds.min.to_array(), width }
+        Self { origin: bounds.min.to_array(), width, scale: width.map(|w| 1.0 / w) }
     }
     /// The slab that a coordinate is in.
     fn of(&self, axis: usize, x: f32) -> usize {
-        (((x - self.origin[axis]) / self.width[axis]) as usize).min(SLABS - 1)
+        (((x - self.origin[axis]) * self.scale[axis]) as usize).min(SLABS - 1)
     }
     /// Where a slab begins.
     fn begin(&self, axis: usize, slab: usize) -> f32 {
@@ -184,11 +214,11 @@ impl Filling {
             row[first].begin += 1;
             row[last].end += 1;
             let mut rest = bounds;
-            for slab in first..last {
+            for (slab, place) in row.iter_mut().enumerate().take(last).skip(first) {
                 let cut = prims.clip(item.prim(), &rest, axis, slabs.begin(axis, slab + 1));
                 let Some([part, more]) = cut else { break };
                 if !part.is_empty() {
-                    row[slab].hull = row[slab].hull.joined(Hull::new(&part));
+                    place.hull = place.hull.joined(Hull::new(&part));
                 }
                 rest = more;
                 if rest.is_empty() {

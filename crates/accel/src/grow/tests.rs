@@ -2,7 +2,6 @@
 mod invariants;
 mod meshes;
 mod optimum;
-mod speed;
 
 use durer_core::math::{Bounds3, Point3};
 
@@ -88,6 +87,16 @@ fn the_scale_of_a_scene_does_not_matter() {
             assert!(near || preset != Preset::Balanced, "{scale}: {}, not {cost}", sah_cost(&tree));
         }
     }
+}
+
+#[test]
+fn what_costs_most_to_build_costs_least_to_walk() {
+    let mesh = Mesh::rooms(1000);
+    let [fast, balanced, high] = PRESETS.map(|preset| sah_cost(&grow(&mesh, 16, preset)));
+    assert!(high < 0.98 * balanced && balanced < 0.98 * fast, "{fast} {balanced} {high}");
+    let tree = grow(&mesh, 16, Preset::High);
+    assert!(tree.order.len() > mesh.len(), "some are cut");
+    assert!(tree.order.len() <= mesh.len() * 5 / 4, "but not too many");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::{
     bins::{Bins, Plane, Slices},
     hull::{AreaUnit, Hull},
     partition::{self, Around},
-    shared::{self, CHUNK},
+    shared::{self, CHUNK, Top},
 };
 
 /// What is known of a range of items.
@@ -39,16 +39,22 @@ pub(super) fn references(prims: &impl Primitives) -> (Vec<Item>, AreaUnit) {
     (items, unit)
 }
 
-/// The tree over one item or more, with up to `leaf_max` of those that pack in a leaf.
+/// The tree over one item or more, with up to `leaf_max` of those that pack in a leaf; its top may exist already.
 pub(super) fn build(
     prims: &impl Primitives,
     mut items: Vec<Item>,
+    top: Option<Top<Plot>>,
     unit: AreaUnit,
     leaf_max: usize,
 ) -> Binary {
-    let around = shared::around(&items);
     let grower = Grower { prims, unit, leaf_max };
-    let subtrees = shared::grow(&grower, Plot { first: 0, depth: 0, around }, &mut items);
+    let subtrees = match top {
+        Some(top) => shared::run(&grower, top, &mut items, 0),
+        None => {
+            let around = shared::around(&items);
+            shared::grow(&grower, Plot { first: 0, depth: 0, around }, &mut items)
+        }
+    };
     let order = items.par_iter().with_min_len(CHUNK).map(Item::prim).collect();
     drop(items);
     Binary { nodes: subtrees.assembled(), order, unit }

