@@ -19,97 +19,116 @@ const SLACK: f32 = 16.0 * U;
 const ORIGIN_SLACK: f32 = 4.0 * U;
 /// Smallest component of a direction compared to its largest: below it the ray moves along the axis by nothing.
 const FLOOR: f32 = 1e-18;
+/// The reciprocal of any shorter component is infinite.
+const SHORTEST: f32 = 3e-39;
 /// Products of reciprocals and coordinates stay below the largest number.
 const PRODUCT_MAX: f32 = 1e37;
 
 /// A ray's constants for meeting planes, by axis: `t = plane * r + c`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
-    /// For the planes by which the ray enters; the fourth lane means nothing.
-    pub(crate) near_r: [f32; 4],
-    pub(crate) near_c: [f32; 4],
+    /// For the planes by which the ray enters; the fourth lane repeats the third.
+    pub(crate) near_r: f32x4,
+    pub(crate) near_c: f32x4,
     /// For those by which it leaves.
-    pub(crate) far_r: [f32; 4],
-    pub(crate) far_c: [f32; 4],
+    pub(crate) far_r: f32x4,
+    pub(crate) far_c: f32x4,
     /// Which plane it enters by: 0 the lower, 1 the upper.
     pub(crate) near_side: [usize; 3],
-    o: [f32; 3],
+    o: f32x4,
     /// Absolute slack of rays that begin behind their origin.
-    behind: [f32; 3],
+    behind: f32x4,
 }
 
 impl Slab {
-    /// For boxes inside `region`, whose coordinates are at most this large. `None` for a ray that can hit nothing: a zero
-    /// or non-finite direction or a non-finite origin.
+    /// For boxes whose coordinates are at most `region` in magnitude, and a ray with [`largest_component`] `largest`.
     #[inline(always)]
-    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, region: f32) -> Option<Self> {
+    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, largest: f32, region: f32) -> Self {
         let (o, d) = (lanes(ray.o.to_array()), lanes(ray.d.to_array()));
         let (size, away) = (d.abs(), o.abs());
-        let largest = greater(greater(ray.d.x.abs(), ray.d.y.abs()), ray.d.z.abs());
-        // 0 x is 0 only for finite x: one comparison instead of six.
-        let finite = (o * 0.0 + d * 0.0).simd_eq(f32x4::ZERO).all();
-        if !(finite && largest > 0.0 && (1.0 / largest).is_finite()) {
-            return None;
-        }
-        let farthest = greater(greater(greater(ray.o.x.abs(), ray.o.y.abs()), ray.o.z.abs()), region);
-        // Keeps products finite, so that there is no infinity less infinity.
-        let finite_floor = farthest * (1.0 / PRODUCT_MAX);
-        let floor = f32x4::splat(greater(FLOOR * largest, finite_floor));
-        let slack = if ROBUST { SLACK * largest } else { 0.0 };
+        let floor = f32x4::splat(greater(FLOOR * largest, finite_floor(ray, region)));
+        let slack = f32x4::splat(if ROBUST { SLACK * largest } else { 0.0 });
         let origin_slack = f32x4::splat(if ROBUST { ORIGIN_SLACK } else { 0.0 });
         // PERF: in vectors, for ten divisions one after another are a tenth of a short ray (bench kernel).
         let near = (f32x4::ONE / (size + slack).fast_max(floor)).copysign(d);
         let far = (f32x4::ONE / (size - slack).fast_max(floor)).copysign(d);
-        let slab = Self {
-            near_r: near.to_array(),
-            near_c: (-(o * near) - origin_slack * (away * near.abs())).to_array(),
-            far_r: far.to_array(),
-            far_c: (origin_slack * (away * far.abs()) - o * far).to_array(),
-            near_side: [ray.d.x, ray.d.y, ray.d.z].map(|d| (d.to_bits() >> 31) as usize),
-            o: ray.o.to_array(),
-            behind: [0.0; 3],
-        };
-        let is_short = finite_floor > SLACK * largest;
-        if ray.t_min < 0.0 || is_short {
-            return Some(slab.widened(ray.d.to_array(), slack, ray.t_min, is_short));
+        Self {
+            near_r: near,
+            near_c: -(o * near) - origin_slack * (away * near.abs()),
+            far_r: far,
+            far_c: origin_slack * (away * far.abs()) - o * far,
+            near_side: [sign(ray.d.x), sign(ray.d.y), sign(ray.d.z)],
+            o,
+            behind: f32x4::ZERO,
         }
-        Some(slab)
     }
 
-    /// Rays that begin behind their origin, and those so short that coordinates divided by them overflow.
+    /// Whether [`Slab::widen`] is needed: rays that begin behind their origin, and those so short that coordinates divided
+    /// by them overflow.
+    #[inline(always)]
+    pub(crate) fn is_odd(ray: &Ray, largest: f32, region: f32) -> bool {
+        ray.t_min < 0.0 || finite_floor(ray, region) > SLACK * largest
+    }
+
     #[cold]
-    fn widened(mut self, d: [f32; 3], slack: f32, t_min: f32, is_short: bool) -> Self {
-        for a in 0..3 {
-            if is_short {
-                // Boxes are never left.
-                (self.far_r[a], self.far_c[a]) = (0.0, f32::MAX);
-            }
-            if t_min < 0.0 {
-                // What is relative errs the other way behind the origin; no error there is larger than this.
-                let size = d[a].abs();
-                let behind = if size > 2.0 * slack { 4.0 * slack / size * -t_min } else { f32::MAX / 4.0 };
-                self.behind[a] = behind;
-                self.near_c[a] -= 2.0 * behind;
-                self.far_c[a] += 2.0 * behind;
-            }
+    #[inline(never)]
+    pub(crate) fn widen(&mut self, ray: &Ray, largest: f32, region: f32) {
+        let slack = SLACK * largest;
+        if finite_floor(ray, region) > slack {
+            // Boxes are never left.
+            (self.far_r, self.far_c) = (f32x4::ZERO, f32x4::splat(f32::MAX));
         }
-        self
+        if ray.t_min < 0.0 {
+            // What is relative errs the other way behind the origin; no error there is larger than this.
+            let of = |size: f32| match size > 2.0 * slack {
+                true => 4.0 * slack / size * -ray.t_min,
+                false => f32::MAX / 4.0,
+            };
+            self.behind = lanes([of(ray.d.x.abs()), of(ray.d.y.abs()), of(ray.d.z.abs())]);
+            self.near_c -= self.behind * 2.0;
+            self.far_c += self.behind * 2.0;
+        }
     }
 
     /// The stretch inside a box that was [`grown`]; it lies within what any node around the box grown again admits.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn window(&self, b: &Bounds3) -> Window {
-        let sides = [b.min.to_array(), b.max.to_array()];
-        let mut window = Window::ALL;
-        for a in 0..3 {
-            let (near, far) = (sides[self.near_side[a]][a], sides[1 - self.near_side[a]][a]);
-            let entry = near * self.near_r[a] - self.o[a] * self.near_r[a] - self.behind[a];
-            let exit = far * self.far_r[a] - self.o[a] * self.far_r[a] + self.behind[a];
-            window.near = greater(window.near, entry);
-            window.far = lesser(window.far, if self.far_r[a] == 0.0 { f32::MAX } else { exit });
+        let (lower, upper) = (lanes(b.min.to_array()), lanes(b.max.to_array()));
+        // A reciprocal's sign tells by which plane the ray enters.
+        let rises = self.near_r.simd_ge(f32x4::ZERO) & !self.near_r.is_sign_negative();
+        let (near, far) = (rises.bitselect(lower, upper), rises.bitselect(upper, lower));
+        let entry = (near * self.near_r - self.o * self.near_r - self.behind).to_array();
+        let is_left = self.far_r.simd_ne(f32x4::ZERO);
+        let exit = far * self.far_r - self.o * self.far_r + self.behind;
+        let exit = is_left.bitselect(exit, f32x4::splat(f32::MAX)).to_array();
+        Window {
+            near: greater(greater(entry[0], entry[1]), entry[2]),
+            far: lesser(lesser(exit[0], exit[1]), exit[2]),
         }
-        window
     }
+}
+
+/// The largest component of a ray's direction, in magnitude. `None` for a ray that can hit nothing: a zero or non-finite
+/// direction or a non-finite origin.
+#[inline(always)]
+pub(crate) fn largest_component(ray: &Ray) -> Option<f32> {
+    let largest = greater(greater(ray.d.x.abs(), ray.d.y.abs()), ray.d.z.abs());
+    // 0 x is 0 only for finite x: one comparison instead of six.
+    let zeros = lanes(ray.o.to_array()) * 0.0 + lanes(ray.d.to_array()) * 0.0;
+    let finite = zeros.simd_eq(f32x4::ZERO).all();
+    (finite && largest >= SHORTEST).then_some(largest)
+}
+
+/// Products of reciprocals and coordinates stay finite if reciprocals are of at least this.
+#[inline(always)]
+fn finite_floor(ray: &Ray, region: f32) -> f32 {
+    let farthest = greater(greater(greater(ray.o.x.abs(), ray.o.y.abs()), ray.o.z.abs()), region);
+    farthest * (1.0 / PRODUCT_MAX)
+}
+
+#[inline(always)]
+fn sign(x: f32) -> usize {
+    (x.to_bits() >> 31) as usize
 }
 
 /// A box around `b` by the slack that tests of boxes and triangles need; `extent` is the size of what it holds a part of.
@@ -173,8 +192,9 @@ mod tests {
         grown(&Bounds3::new(Point3::ZERO, Point3::splat(1.0)), 1.0)
     }
     fn admits(o: [f32; 3], d: [f32; 3]) -> bool {
-        let slab = Slab::new::<true>(&Ray::new(o.into(), d.into()), 1.0).expect("valid ray");
-        slab.window(&unit()).admits(0.0, f32::INFINITY)
+        let ray = Ray::new(o.into(), d.into());
+        let largest = largest_component(&ray).expect("valid ray");
+        Slab::new::<true>(&ray, largest, 1.0).window(&unit()).admits(0.0, f32::INFINITY)
     }
 
     #[test]
@@ -190,16 +210,18 @@ mod tests {
     #[test]
     fn impossible_rays_are_refused() {
         for d in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0], [1e-44, 0.0, 0.0]] {
-            assert!(Slab::new::<true>(&Ray::new(Point3::ZERO, d.into()), 1.0).is_none(), "{d:?}");
+            assert!(largest_component(&Ray::new(Point3::ZERO, d.into())).is_none(), "{d:?}");
         }
         let far = Ray::new(Point3::splat(f32::INFINITY), Vector3::splat(1.0));
-        assert!(Slab::new::<true>(&far, 1.0).is_none());
+        assert!(largest_component(&far).is_none());
     }
 
     #[test]
     fn huge_coordinates_give_numbers() {
         let ray = Ray::new(Point3::splat(1e30), Vector3::new(0.0, 1.0, -0.0));
-        let slab = Slab::new::<true>(&ray, 1e32).expect("valid ray");
+        let mut slab = Slab::new::<true>(&ray, 1.0, 1e32);
+        assert!(Slab::is_odd(&ray, 1.0, 1e32) && !Slab::is_odd(&ray, 1.0, 1e10));
+        slab.widen(&ray, 1.0, 1e32);
         let window = slab.window(&grown(&Bounds3::new(Point3::splat(-1e32), Point3::splat(1e32)), 2e32));
         assert!(window.admits(0.0, f32::MAX), "{window:?}");
     }

@@ -57,12 +57,6 @@ pub(crate) enum Axis {
     Z,
 }
 
-impl Axis {
-    pub(crate) fn new(index: usize) -> Self {
-        [Self::X, Self::Y, Self::Z][index % 3]
-    }
-}
-
 fn points(triangles: &[(u32, [[Point3; 3]; 2])], key: usize) -> [Points; 3] {
     let lane = |i: usize| if i < triangles.len() { &triangles[i].1[key] } else { &triangles[0].1[key] };
     std::array::from_fn(|vertex| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[vertex][axis])))

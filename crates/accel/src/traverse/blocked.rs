@@ -4,7 +4,7 @@ use crate::{
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
     simd::{Slots, Stack},
-    space::Space,
+    space::enter_space,
     tree::{Tree, Trees},
 };
 
@@ -18,7 +18,7 @@ pub(crate) fn blocked<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) -> bool {
     let tree = level.tree();
-    let Some(space) = Space::new::<ROBUST>(level.ray, level.forest.region) else { return false };
+    enter_space!(space, ROBUST, level.ray, level.forest.region, false);
     match &level.forest.trees {
         Trees::Still(_) => {
             let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);

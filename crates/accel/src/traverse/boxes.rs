@@ -2,6 +2,8 @@
 //!
 //! PERF: no closures and no `array::map` with vectors here and in `triangle::lanes`: the compiler may leave them as calls of
 //! functions that lack the features of the walk, ten times slower (bench kernel).
+use wide::f32x4;
+
 use crate::{
     lanes::{LaneMask, Lanes},
     layout::BoxNode,
@@ -21,7 +23,8 @@ pub(crate) struct BoxRay<V> {
 }
 
 #[inline(always)]
-fn splat<V: Lanes>(token: V::Token, [x, y, z, _]: [f32; 4]) -> [V; 3] {
+fn splat<V: Lanes>(token: V::Token, v: f32x4) -> [V; 3] {
+    let [x, y, z, _] = v.to_array();
     [V::splat(token, x), V::splat(token, y), V::splat(token, z)]
 }
 

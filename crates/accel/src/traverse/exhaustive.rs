@@ -4,7 +4,7 @@ use crate::{
     lanes::Portable,
     layout::{Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
-    space::Space,
+    space::enter_space,
     tree::Trees,
 };
 
@@ -31,7 +31,7 @@ pub(crate) fn exhaustive_blocked<W: Watch>(
 
 fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: &mut Best, watch: &mut W) {
     let (tree, moment) = level.tree();
-    let Some(world) = Space::new::<true>(level.ray, level.forest.region) else { return };
+    enter_space!(world, true, level.ray, level.forest.region, ());
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {
             let Some((admitted, entered)) = cx.window(index, &world, best.t) else { continue };
@@ -50,7 +50,7 @@ fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: 
 
 fn all_blocked<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, t_max: f32, watch: &mut W) -> bool {
     let (tree, moment) = level.tree();
-    let Some(world) = Space::new::<true>(level.ray, level.forest.region) else { return false };
+    enter_space!(world, true, level.ray, level.forest.region, false);
     let mut blocked = false;
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {

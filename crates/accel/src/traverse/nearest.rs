@@ -5,7 +5,7 @@ use crate::{
     layout::{BoxNode, Link, MovingPacket, Packet, PacketRecord, Target},
     probe::Watch,
     simd::{Slots, Stack},
-    space::Space,
+    space::enter_space,
     tree::{Tree, Trees},
 };
 
@@ -19,7 +19,7 @@ pub(crate) fn nearest<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) {
     let tree = level.tree();
-    let Some(space) = Space::new::<ROBUST>(level.ray, level.forest.region) else { return };
+    enter_space!(space, ROBUST, level.ray, level.forest.region, ());
     match &level.forest.trees {
         Trees::Still(_) => {
             let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);

@@ -11,14 +11,19 @@ mod cramer;
 mod lanes;
 
 use durer_core::math::{Point3, Ray};
+use wide::f32x4;
 
-use crate::layout::Axis;
+use crate::{layout::Axis, slab::greater};
 
 pub use cramer::cramer;
 pub(crate) use lanes::{Found, Reach, packet};
 
 /// Directions smaller than this times the largest component move a ray along no axis: boxes cannot exclude it there.
 const HARDLY: f32 = 1.0 / (1 << 20) as f32;
+
+/// The two other axes and the longest, by the longest: a turn that keeps right-handedness.
+const AXES: [[Axis; 3]; 3] =
+    [[Axis::Y, Axis::Z, Axis::X], [Axis::Z, Axis::X, Axis::Y], [Axis::X, Axis::Y, Axis::Z]];
 
 /// A ray's constants for testing triangles.
 #[derive(Clone, Copy, Debug)]
@@ -39,34 +44,36 @@ pub struct Shear {
 
 impl Shear {
     /// `None` for a zero or non-finite direction, or one so short that its reciprocal is not finite.
-    #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
-        let last = ray.d.max_axis();
+        crate::slab::largest_component(ray).map(|_| Self::of_valid(ray))
+    }
+
+    /// Of a ray that has a direction.
+    #[inline(always)]
+    pub(crate) fn of_valid(ray: &Ray) -> Self {
+        let size = ray.d.abs();
+        // PERF: numbers, not branches: which axis is longest cannot be foretold (bench kernel).
+        let of_two = usize::from(size.y > size.x);
+        let last = if size.z > greater(size.x, size.y) { 2 } else { of_two };
+        let axes = AXES[last];
         let (o, d) = (ray.o.to_array(), ray.d.to_array());
-        let by = |v: [f32; 3]| match last {
-            0 => [v[1], v[2], v[0]],
-            1 => [v[2], v[0], v[1]],
-            _ => v,
-        };
-        let d = by(d);
-        let z = 1.0 / d[2];
-        // 0 x is 0 only for finite x.
-        if !(z.is_finite() && (d[0] + d[1] + d[2]) * 0.0 == 0.0) {
-            return None;
-        }
+        let o = [o[axes[0] as usize], o[axes[1] as usize], o[axes[2] as usize]];
+        let d = [d[axes[0] as usize], d[axes[1] as usize], d[axes[2] as usize]];
         let hardly = HARDLY * d[2].abs();
-        let moves = |i: usize| d[i].abs() >= hardly;
-        let reciprocal = |i: usize| if moves(i) { 1.0 / d[i] } else { 0.0 };
-        let slack = |i: usize| if moves(i) { 0.0 } else { f32::INFINITY };
-        Some(Self {
-            o: by(o),
-            axes: [Axis::new(last + 1), Axis::new(last + 2), Axis::new(last)],
-            x: d[0] / d[2],
-            y: d[1] / d[2],
-            z,
-            reciprocal: [reciprocal(0), reciprocal(1)],
-            slack: [slack(0), slack(1)],
-        })
+        let (moves_x, moves_y) = (d[0].abs() >= hardly, d[1].abs() >= hardly);
+        // PERF: one division of three (bench kernel).
+        let r = (f32x4::ONE / f32x4::new([d[0], d[1], d[2], 1.0])).to_array();
+        let slack = |moves: bool| if moves { 0.0 } else { f32::INFINITY };
+        let ratios = (f32x4::new([d[0], d[1], 0.0, 0.0]) / f32x4::splat(d[2])).to_array();
+        Self {
+            o,
+            axes,
+            x: ratios[0],
+            y: ratios[1],
+            z: r[2],
+            reciprocal: [if moves_x { r[0] } else { 0.0 }, if moves_y { r[1] } else { 0.0 }],
+            slack: [slack(moves_x), slack(moves_y)],
+        }
     }
 
     /// A point relative to the origin, by `axes`.
