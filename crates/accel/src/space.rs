@@ -30,7 +30,6 @@ macro_rules! enter_space {
         if $crate::slab::Slab::is_odd($ray, largest, $region) {
             $space.slab.widen($ray, largest, $region);
         }
-        let $space = $space;
     };
 }
 pub(crate) use enter_space;
