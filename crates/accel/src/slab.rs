@@ -38,6 +38,8 @@ pub(crate) struct Slab {
     o: f32x4,
     /// Absolute slack of rays that begin behind their origin.
     behind: f32x4,
+    /// What nodes' boxes add to `t`: 0, or `-t_min` of a ray that begins behind its origin, so that nothing is negative.
+    pub(crate) shift: f32,
 }
 
 impl Slab {
@@ -60,6 +62,7 @@ impl Slab {
             near_side: [sign(ray.d.x), sign(ray.d.y), sign(ray.d.z)],
             o,
             behind: f32x4::ZERO,
+            shift: 0.0,
         }
     }
 
@@ -85,8 +88,9 @@ impl Slab {
                 false => f32::MAX / 4.0,
             };
             self.behind = lanes([of(ray.d.x.abs()), of(ray.d.y.abs()), of(ray.d.z.abs())]);
-            self.near_c -= self.behind * 2.0;
-            self.far_c += self.behind * 2.0;
+            self.shift = -ray.t_min;
+            self.near_c += self.shift - self.behind * 2.0;
+            self.far_c += self.shift + self.behind * 2.0;
         }
     }
 

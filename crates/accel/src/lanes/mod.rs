@@ -40,6 +40,13 @@ pub(crate) trait Lanes: Copy {
     fn abs(self) -> Self;
     /// `self * b + c`, rounded once or twice.
     fn fused(self, b: Self, c: Self) -> Self;
+    /// The greater of two of which at least one is not negative. PERF: as whole numbers where that is quicker, three
+    /// cycles of each of four steps that wait for each other (bench kernel).
+    fn max_bits(self, o: Self) -> Self;
+    /// The lesser of two that are not negative; some negative number if one is.
+    fn min_bits(self, o: Self) -> Self;
+    /// `self <= o`, for a `self` that is not negative.
+    fn le_bits(self, o: Self) -> Self::Mask;
     /// `self <= o`; false for NaN.
     fn le(self, o: Self) -> Self::Mask;
     /// `self < o`; false for NaN.

@@ -67,6 +67,18 @@ impl Lanes for f32 {
         self * b + c
     }
     #[inline(always)]
+    fn max_bits(self, o: Self) -> Self {
+        Lanes::max(self, o)
+    }
+    #[inline(always)]
+    fn min_bits(self, o: Self) -> Self {
+        Lanes::min(self, o)
+    }
+    #[inline(always)]
+    fn le_bits(self, o: Self) -> bool {
+        Lanes::le(self, o)
+    }
+    #[inline(always)]
     fn le(self, o: Self) -> bool {
         self <= o
     }

@@ -4,10 +4,13 @@
 //! on. A value of these types can only be made with a token, and a token only after asking the processor.
 use std::arch::x86_64::{
     __m256, __m512, __mmask16, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_ps,
-    _mm256_cmp_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps,
-    _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
-    _mm512_abs_ps, _mm512_add_ps, _mm512_cmp_ps_mask, _mm512_div_ps, _mm512_fmadd_ps, _mm512_loadu_ps,
-    _mm512_max_ps, _mm512_min_ps, _mm512_mul_ps, _mm512_set1_ps, _mm512_storeu_ps, _mm512_sub_ps,
+    _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpgt_epi32, _mm256_div_ps,
+    _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps,
+    _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_storeu_ps,
+    _mm256_sub_ps, _mm256_xor_ps, _mm512_abs_ps, _mm512_add_ps, _mm512_castps_si512, _mm512_castsi512_ps,
+    _mm512_cmp_ps_mask, _mm512_cmple_epi32_mask, _mm512_div_ps, _mm512_fmadd_ps, _mm512_loadu_ps,
+    _mm512_max_epi32, _mm512_max_ps, _mm512_min_epi32, _mm512_min_ps, _mm512_mul_ps, _mm512_set1_ps,
+    _mm512_storeu_ps, _mm512_sub_ps,
 };
 
 use crate::lanes::{LaneMask, Lanes};
@@ -75,6 +78,16 @@ impl<T: HasAvx2> LaneMask for Ymm<T> {
     }
 }
 
+macro_rules! binary_bits {
+    ($($name:ident = $intrinsic:ident $into:ident $from:ident),* $(,)?) => {$(
+        #[inline(always)]
+        fn $name(self, o: Self) -> Self {
+            // SAFETY: a value of this type proves the registers it lies in; casts change no bits.
+            Self(unsafe { $from($intrinsic($into(self.0), $into(o.0))) }, self.1)
+        }
+    )*};
+}
+
 macro_rules! binary {
     ($($name:ident = $intrinsic:ident),* $(,)?) => {$(
         #[inline(always)]
@@ -99,6 +112,20 @@ impl<T: HasAvx2> Lanes for Ymm<T> {
         min = _mm256_min_ps,
         max = _mm256_max_ps,
     );
+    binary_bits!(
+        max_bits = _mm256_max_epi32 _mm256_castps_si256 _mm256_castsi256_ps,
+        min_bits = _mm256_min_epi32 _mm256_castps_si256 _mm256_castsi256_ps,
+    );
+
+    #[inline(always)]
+    fn le_bits(self, o: Self) -> Self {
+        // SAFETY: a value of this type proves AVX2; casts change no bits.
+        let gt = unsafe {
+            _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))
+        };
+        // SAFETY: as above; the complement of a mask.
+        Self(unsafe { _mm256_xor_ps(gt, _mm256_castsi256_ps(_mm256_set1_epi32(-1))) }, self.1)
+    }
 
     #[inline(always)]
     fn splat(token: T, x: f32) -> Self {
@@ -170,6 +197,16 @@ impl Lanes for Zmm {
         min = _mm512_min_ps,
         max = _mm512_max_ps,
     );
+    binary_bits!(
+        max_bits = _mm512_max_epi32 _mm512_castps_si512 _mm512_castsi512_ps,
+        min_bits = _mm512_min_epi32 _mm512_castps_si512 _mm512_castsi512_ps,
+    );
+
+    #[inline(always)]
+    fn le_bits(self, o: Self) -> __mmask16 {
+        // SAFETY: a value of this type proves AVX-512; casts change no bits.
+        unsafe { _mm512_cmple_epi32_mask(_mm512_castps_si512(self.0), _mm512_castps_si512(o.0)) }
+    }
 
     #[inline(always)]
     fn splat(token: Avx512, x: f32) -> Self {

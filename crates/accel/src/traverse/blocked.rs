@@ -45,7 +45,8 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
         }
     }
     let Some(mut link) = tree.root else { return false };
-    let ray = leaves.box_ray();
+    let (ray, shift) = leaves.box_ray();
+    let end = t_max + shift;
     let mut slots = Slots::new();
     let mut stack = Stack::new(&mut slots);
     loop {
@@ -54,7 +55,7 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
                 leaves.watch.node(tree.name(row));
             }
             let node: &N = tree.pages.get(row);
-            let (mut hit, _) = ray.enter(kernel, node, t_max);
+            let (mut hit, _) = ray.enter(kernel, node, end);
             if hit != 0 {
                 link = Link(node.link(hit.trailing_zeros()));
                 kernel.prefetch(tree.pages.address(link));

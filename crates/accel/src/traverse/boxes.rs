@@ -54,13 +54,14 @@ impl<V: Lanes> BoxRay<V> {
         plane.fused(self.far_r[axis], self.far_c[axis])
     }
 
-    /// Bit `i` of the result: the ray enters the box of lane `i` before `t_max`; and where.
+    /// Bit `i` of the result: the ray enters the box of lane `i` before `t_max`; and where. Both are moved by `Slab::shift`,
+    /// so that neither they nor `t_max` are negative.
     #[inline(always)]
     pub(crate) fn enter<N: BoxNode<V>>(&self, token: V::Token, node: &N, t_max: f32) -> (u32, V) {
         let (x, y) = (self.near(token, node, 0), self.near(token, node, 1));
-        let entry = x.max(y).max(self.near(token, node, 2).max(self.t_min));
+        let entry = x.max_bits(y).max_bits(self.near(token, node, 2).max_bits(self.t_min));
         let (x, y) = (self.far(token, node, 0), self.far(token, node, 1));
-        let exit = x.min(y).min(self.far(token, node, 2).min(V::splat(token, t_max)));
-        (entry.le(exit).bits(), entry)
+        let exit = x.min_bits(y).min_bits(self.far(token, node, 2).min_bits(V::splat(token, t_max)));
+        (entry.le_bits(exit).bits(), entry)
     }
 }

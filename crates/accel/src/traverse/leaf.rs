@@ -40,9 +40,11 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     }
 
     #[inline(always)]
-    pub(crate) fn box_ray(&self) -> BoxRay<K::Boxes> {
+    /// Constants for boxes, and what they add to `t`. A sum is never minus zero, which has the bits of a negative number.
+    pub(crate) fn box_ray(&self) -> (BoxRay<K::Boxes>, f32) {
         let space = self.space;
-        BoxRay::new(self.kernel, &space.slab, space.ray.t_min, self.moment)
+        let t_min = space.ray.t_min + space.slab.shift;
+        (BoxRay::new(self.kernel, &space.slab, t_min, self.moment), space.slab.shift)
     }
 
     #[inline(always)]

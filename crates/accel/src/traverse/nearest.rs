@@ -51,7 +51,7 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
         leaves.nearest(link, best);
     }
     let Some(mut link) = tree.root else { return };
-    let ray = leaves.box_ray();
+    let (ray, shift) = leaves.box_ray();
     let mut nears = <K::Boxes as Lanes>::ZEROS;
     let mut slots = Slots::new();
     let mut stack = Stack::new(&mut slots);
@@ -61,7 +61,7 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
                 leaves.watch.node(tree.name(row));
             }
             let node: &N = tree.pages.get(row);
-            let (mut hit, near) = ray.enter(kernel, node, best.t);
+            let (mut hit, near) = ray.enter(kernel, node, best.t + shift);
             if hit != 0 {
                 let first = hit.trailing_zeros();
                 hit &= hit - 1;
@@ -80,7 +80,7 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
         link = loop {
             let Some(top) = stack.pop() else { return };
             // A nearer hit may have been found since this was put aside.
-            if f32::from_bits((top >> 32) as u32) <= best.t {
+            if f32::from_bits((top >> 32) as u32) <= best.t + shift {
                 break Link(top as u32);
             }
         };
