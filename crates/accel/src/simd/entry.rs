@@ -9,15 +9,15 @@ use crate::{
 };
 
 #[inline(always)]
-fn prefetch(address: *const u8) {
-    for line in 0..4 {
+fn prefetch(address: *const u8, lines: usize) {
+    for line in 0..lines {
         // SAFETY: prefetching an address never faults, whatever it is.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(address.wrapping_add(64 * line).cast()) };
     }
 }
 
 macro_rules! kernel {
-    ($token:ty, $boxes:ty, $node:ty, $moving:ty, $features:literal) => {
+    ($token:ty, $boxes:ty, $node:ty, $moving:ty, $lines:literal, $features:literal) => {
         impl Kernel for $token {
             type Boxes = $boxes;
             type Packets = Ymm<$token>;
@@ -70,11 +70,11 @@ macro_rules! kernel {
 
             #[inline(always)]
             fn prefetch(self, address: *const u8) {
-                prefetch(address);
+                prefetch(address, $lines);
             }
         }
     };
 }
 
-kernel!(Avx2, Ymm<Avx2>, Node<8>, MovingNode<8>, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+kernel!(Avx2, Ymm<Avx2>, Node<8>, MovingNode<8>, 5, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 kernel!(Avx512, Zmm, Node<16>, MovingNode<16>, "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt");

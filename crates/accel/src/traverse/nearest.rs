@@ -66,10 +66,10 @@ fn walk<K: Kernel, N: BoxNode<K::Boxes>, R: PacketRecord, W: Watch, const ROBUST
                 let first = hit.trailing_zeros();
                 hit &= hit - 1;
                 link = Link(node.link(first));
-                kernel.prefetch(tree.pages.address(link));
                 if hit == 0 {
                     continue;
                 }
+                kernel.prefetch(tree.pages.address(link));
                 near.store(&mut nears);
                 link = put_aside(kernel, tree, node, &nears, (first, hit), &mut stack);
                 continue;
