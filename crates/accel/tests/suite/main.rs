@@ -3,6 +3,7 @@ mod bending;
 mod corpus;
 mod edge_cases;
 mod equality;
+mod filtered;
 mod icosphere;
 mod instancing;
 mod properties;
