@@ -67,7 +67,7 @@ impl Report {
         let acceleration = placed.building;
         Self {
             geometry: counts,
-            placed_mesh_bytes: placed.merged.iter().map(|m| mesh_bytes(&m.mesh)).sum(),
+            placed_mesh_bytes: placed.placed_mesh_bytes,
             expected_bytes: counts.expected_bytes(),
             times: Times { textures, geometry: geometry.saturating_sub(acceleration), acceleration },
         }
@@ -112,7 +112,7 @@ impl GeometryCounts {
 }
 
 /// Heap memory of a mesh.
-fn mesh_bytes(mesh: &Mesh) -> u64 {
+pub(super) fn mesh_bytes(mesh: &Mesh) -> u64 {
     let later: usize = mesh.later.iter().map(|key| size_of_val(key.positions.as_slice())).sum();
     let total = size_of_val(mesh.positions.as_slice())
         + size_of_val(mesh.indices.as_slice())
