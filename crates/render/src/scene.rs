@@ -162,7 +162,8 @@ impl UserGeometry for Asked<'_> {
         }
         let surface = cx.scene.surface(ray, hit).1;
         let is_hidden = may_hide && !surface.is_outside(-ray.d);
-        !is_hidden && !(material.has_holes() && material.is_hole(&cx.shade(), &surface.texture_at()))
+        let is_hole = || material.has_holes() && material.is_hole(&cx.shade(), &surface.texture_at());
+        !(is_hidden || is_hole())
     }
 }
 

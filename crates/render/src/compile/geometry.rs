@@ -156,7 +156,7 @@ impl Placing<'_> {
         match self.build(pending, objects) {
             Ok(placed) => Some(placed),
             Err(error) => {
-                diagnostics.error(Location::None, error.to_string());
+                diagnostics.error(Location::None, error);
                 None
             }
         }
@@ -182,34 +182,42 @@ impl Placing<'_> {
         }
     }
 
-    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, BuildError> {
+    /// Hands everything to the kernel; an error says which object it is about.
+    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, String> {
         let Pending { meshes, shapes, movers } = pending;
         let (single, several): (Vec<_>, Vec<_>) =
             meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
         let baked = bake(single);
         let placed_mesh_bytes = baked.iter().map(|(_, mesh)| mesh_bytes(mesh)).sum();
         let seen = |object: Id<Object>| self.seen(&objects[object.index()]);
+        let about = |object: Id<Object>| {
+            let name = &objects[object.index()].name;
+            move |error: BuildError| format!("{name}: {error}")
+        };
+        let whole = |error: BuildError| error.to_string();
 
         let start = Instant::now();
         let mut kernel = AccelBuilder::new(self.accel);
         let mut targets = Vec::new();
         for (object, mesh) in &baked {
-            let geometry = kernel.borrowed_triangles(&mesh.positions, &mesh.indices)?;
-            kernel.instance_seen(geometry, Placement::Identity, seen(*object))?;
+            let geometry = kernel.borrowed_triangles(&mesh.positions, &mesh.indices);
+            let geometry = geometry.map_err(about(*object))?;
+            kernel.instance_seen(geometry, Placement::Identity, seen(*object)).map_err(about(*object))?;
             targets.push(Target::Baked(*object, Arc::clone(mesh)));
         }
         if !shapes.is_empty() {
             let bounds = shapes.iter().map(|s| s.render_from_object.bounds(&s.shape.bounds()));
-            let geometry = kernel.user(bounds.collect())?;
+            let geometry = kernel.user(bounds.collect()).map_err(whole)?;
             let is_filtered = shapes.iter().any(|s| shape_seen(seen(s.object)).is_filtered);
             let seen = Visibility { is_filtered, ..Visibility::default() };
-            kernel.instance_seen(geometry, Placement::Identity, seen)?;
+            kernel.instance_seen(geometry, Placement::Identity, seen).map_err(whole)?;
             targets.push(Target::Shapes);
         }
         for (index, (mover, motion)) in movers.iter().enumerate() {
-            let geometry = kernel.user(vec![mover.shape.bounds()])?;
+            let geometry = kernel.user(vec![mover.shape.bounds()]).map_err(about(mover.object))?;
             let seen = shape_seen(seen(mover.object));
-            kernel.instance_seen(geometry, Placement::from_motion(motion), seen)?;
+            let placement = Placement::from_motion(motion);
+            kernel.instance_seen(geometry, placement, seen).map_err(about(mover.object))?;
             targets.push(Target::Mover(index as u32));
         }
         let mut known: HashMap<*const Mesh, GeometryId> = HashMap::new();
@@ -218,13 +226,14 @@ impl Placing<'_> {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
                     let keys = (0..mesh.keys()).map(|key| mesh.key(key));
-                    *new.insert(kernel.keyed_triangles(&mesh.indices, keys)?)
+                    *new.insert(kernel.keyed_triangles(&mesh.indices, keys).map_err(about(*object))?)
                 }
             };
-            kernel.instance_seen(geometry, Placement::from_motion(motion), seen(*object))?;
+            let placement = Placement::from_motion(motion);
+            kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
             targets.push(Target::Mesh(*object, Arc::clone(mesh)));
         }
-        let accel = kernel.build()?;
+        let accel = kernel.build().map_err(whole)?;
         let building = start.elapsed();
         let movers = movers.into_iter().map(|(mover, _)| mover).collect();
         Ok(Placed { accel, objects, targets, shapes, movers, placed_mesh_bytes, building })
