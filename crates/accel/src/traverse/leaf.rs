@@ -153,15 +153,12 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
 
     /// Whether the caller's filter lets the hit count.
     fn passes(&self, instance: u32, prim: u32, hit: &Best) -> bool {
-        !self.is_filtered(instance) || {
+        let asks = self.cx.filters && self.cx.accel.instances[instance as usize].seen.is_filtered;
+        !asks || {
             let (prim, u, v) = self.cx.accel.called(instance, prim, hit.u, hit.v);
             let n_g = durer_core::math::Vector3::ZERO;
             self.cx.callback.accepts(&Hit { t: hit.t, instance, prim, u, v, n_g })
         }
-    }
-
-    fn is_filtered(&self, instance: u32) -> bool {
-        self.cx.filters && self.cx.accel.instances[instance as usize].seen.is_filtered
     }
 
     #[inline(never)]
@@ -182,7 +179,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     fn item_blocks(&mut self, item: u32, t_max: f32) -> bool {
         let Some((instance, prim, window)) = self.item(item, t_max) else { return false };
         let ray = self.level.space.ray;
-        if !self.is_filtered(instance) {
+        if !self.cx.filters {
             let blocks = self.cx.callback.occludes(instance, prim, ray, t_max);
             return blocks && window.admits(ray.t_min, t_max) && self.level.floor <= t_max;
         }
