@@ -18,6 +18,8 @@ struct Cost {
     building: u64,
 }
 
+/// The scene: the node at the root and lists.
+const SCENE: Cost = Cost { kept: 1024, building: 4096 };
 /// A triangle: packets of 8 have 320 bytes, and are mostly filled with 4 to 6.
 const TRIANGLE: Cost = Cost { kept: 100, building: 192 };
 /// A shape that is no triangle: it is alone in its leaf.
@@ -128,7 +130,8 @@ impl GeometryCounts {
     fn bytes(&self, of: impl Fn(&Cost) -> u64) -> u64 {
         // Triangles that move have two places, in a tree for each pair of keys.
         let triangles = self.triangles + 2 * self.moving_triangles;
-        triangles * of(&TRIANGLE)
+        of(&SCENE)
+            + triangles * of(&TRIANGLE)
             + self.other_shapes * of(&SHAPE)
             + self.meshes * of(&MESH)
             + self.shared_placements * of(&PLACEMENT)
