@@ -51,6 +51,22 @@ fn one_sided_surfaces_are_seen_from_where_their_corners_turn_counter_clockwise()
 }
 
 #[test]
+fn one_sided_spheres_are_seen_from_outside_also_among_others_and_moving() {
+    let (red, sky, grey) = ([1.0, 0.0, 0.0], [1.0; 3], [0.5; 3]);
+    let around = "Shape \"sphere\" \"float radius\" 3\n";
+    let ahead = "AttributeBegin\nTranslate 0 0 5\nShape \"sphere\"\nAttributeEnd\n";
+    let plain = "Material \"principled\" \"rgb basecolor\" [.5 .5 .5] \"bool unlit\" true\n";
+    let moves = "ActiveTransform EndTime\nTranslate 0 0 0.5\nActiveTransform All\n";
+    for motion in ["", moves] {
+        let of = |spheres: &str| radiance(&format!("{SKY}{RED}{motion}{spheres}"));
+        assert_eq!((of(around), of(ahead)), (sky, red), "{motion}");
+        assert_eq!(of(&format!("{around}{ahead}")), red, "{motion}");
+        // The filter is asked about the plain sphere too where both are among the still shapes.
+        assert_eq!(of(&format!("{around}{plain}{ahead}")), grey, "{motion}");
+    }
+}
+
+#[test]
 fn one_sided_surfaces_cast_shadows_from_both_sides() {
     let lit = |blocker: &str| {
         let sun = "LightSource \"distant\" \"point3 from\" [0 0 0] \"point3 to\" [0 0 1] \"rgb L\" [1 1 1]\n";

@@ -67,8 +67,10 @@ pub struct Accel {
     pub(crate) instances: Vec<Instance>,
     /// Whose the primitives of `scene` are.
     pub(crate) owners: Owners,
-    /// Some instance of `scene` is not seen by all rays.
+    /// Whether some instance is not seen by all rays, hides its backs, is put to filters.
     pub(crate) is_selective: bool,
+    pub(crate) hides_backs: bool,
+    pub(crate) is_filtered: bool,
     pub(crate) bounds: Bounds3,
 }
 
@@ -86,7 +88,9 @@ impl Accel {
     pub(crate) fn new(options: &BuildOptions, parts: Parts) -> Self {
         let Parts { registers, scene, movers, geometries, instances, owners } = parts;
         let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
-        let is_selective = instances.iter().any(|i| i.seen.mask != u32::MAX);
+        let any = |is: fn(&Visibility) -> bool| instances.iter().any(|i| is(&i.seen));
+        let is_selective = any(|seen| seen.mask != u32::MAX);
+        let (hides_backs, is_filtered) = (any(|seen| seen.hides_backs), any(|seen| seen.is_filtered));
         let (engine, precision) = (options.engine, options.precision);
         let mut accel = Self {
             engine,
@@ -98,6 +102,8 @@ impl Accel {
             instances,
             owners,
             is_selective,
+            hides_backs,
+            is_filtered,
             bounds,
         };
         accel.name_nodes();

@@ -134,6 +134,7 @@ macro_rules! dispatch {
 impl<'a> Cx<'a> {
     #[inline]
     fn new(accel: &'a Accel, callback: &'a dyn Callback, mask: u32, culls: bool, filters: bool) -> Self {
+        let (filters, culls) = (filters && accel.is_filtered, culls && accel.hides_backs);
         let checks = filters || culls || accel.is_selective;
         let exhaustive = accel.engine == Engine::BruteForce;
         Self { accel, callback, mask, culls, filters, checks, exhaustive }
@@ -206,7 +207,10 @@ impl<'a> Cx<'a> {
             return match owner.pose.at(ray.time) {
                 None => n,
                 // The tree holds the mesh where it is placed.
-                Some(m) => m.inverse().normal(n.into()).into(),
+                Some(m) => {
+                    let n: Vector3 = m.inverse().normal(n.into()).into();
+                    if m.swaps_handedness() { -n } else { n }
+                }
             };
         }
         let Some(forest) = &self.accel.geometries[owner.geometry.index()].forest else {

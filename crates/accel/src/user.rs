@@ -20,8 +20,8 @@ pub trait UserGeometry {
         self.intersect(instance, prim, ray, t_max).is_some()
     }
     /// Whether a hit, on a triangle or a shape, counts: false in the holes of a cut-out texture. The ray goes on through
-    /// what it is refused, and meets other things at the same `t`. Asked only if [`UserGeometry::FILTERS`].
-    /// [`Hit::n_g`] is not known yet and zero.
+    /// what it is refused, and meets other things at the same `t`. Asked only if [`UserGeometry::FILTERS`],
+    /// and of instances with `Visibility::is_filtered`. [`Hit::n_g`] is not known yet and zero.
     fn accepts(&self, hit: &Hit) -> bool {
         let _ = hit;
         true

@@ -25,7 +25,7 @@ Examples:
   durer info room.glb --json | jq .counts
 
 JSON: an object with version 1; scene, format, counts, bounds, cameras, lights,
-materials, textures, film, integrator, render, memory, seconds, doctor,
+materials, textures, film, integrator, render, isa, memory, seconds, doctor,
 complaints, diagnostics. What could not be found out because of errors is null. Within a
 version keys may be added, none renamed.";
 

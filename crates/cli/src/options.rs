@@ -6,13 +6,53 @@ use clap::{
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use durer::{
-    Options, Show, accel::Engine, film::Tile, integrator::INTEGRATORS, math::Interval, scene::Missing,
+    Options, Show,
+    accel::{Engine, Preset},
+    film::Tile,
+    integrator::INTEGRATORS,
+    math::Interval,
+    scene::Missing,
 };
 
 use crate::value::{crop, finite, fraction, positive, shutter, whole};
 
-/// Words of `--accel`, with the engine each names.
-const ENGINES: [(&str, Engine); 2] = [("bvh", Engine::Bvh), ("none", Engine::BruteForce)];
+/// How hits are found: what a word of `--accel` stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Search {
+    word: &'static str,
+    about: &'static str,
+    engine: Engine,
+    preset: Preset,
+}
+
+/// All of them. The second is the default.
+const SEARCHES: [Search; 4] = [
+    Search {
+        word: "fast",
+        about: "A hierarchy of boxes that is built sooner and searched more slowly",
+        engine: Engine::Bvh,
+        preset: Preset::Fast,
+    },
+    Search {
+        word: "balanced",
+        about: "A hierarchy of boxes for most pictures",
+        engine: Engine::Bvh,
+        preset: Preset::Balanced,
+    },
+    Search {
+        word: "high",
+        about: "A hierarchy of boxes for pictures that take minutes",
+        engine: Engine::Bvh,
+        preset: Preset::High,
+    },
+    Search {
+        word: "none",
+        about: "Every primitive is tested with every ray",
+        engine: Engine::BruteForce,
+        preset: Preset::Balanced,
+    },
+];
+const DEFAULT_SEARCH: &str = SEARCHES[1].word;
 
 /// Which scene, from which camera, when.
 #[derive(Args, Clone, Debug)]
@@ -80,9 +120,9 @@ pub(crate) struct TransportOptions {
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     min_contribution: Option<f32>,
-    /// How hits are found: a hierarchy of boxes, or every primitive with every ray.
-    #[arg(long, value_name = "HOW", default_value = "bvh", hide_default_value = true, value_parser = engine())]
-    accel: Engine,
+    /// How hits are found; the picture does not depend on it [default: balanced].
+    #[arg(long, value_name = "HOW", default_value = DEFAULT_SEARCH, hide_default_value = true, value_parser = search())]
+    accel: Search,
 }
 
 /// How much is said on stderr.
@@ -138,7 +178,8 @@ impl SampleOptions {
             max_depth,
             min_contribution,
             crop,
-            engine: accel,
+            engine: accel.engine,
+            preset: accel.preset,
             seed: seed.unwrap_or(0),
             ..self.scene.wishes()
         }
@@ -168,8 +209,7 @@ impl SampleOptions {
         say("show", show.map(|v| v.word().to_owned()));
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
-        let other_engine = ENGINES.iter().find(|(_, e)| e == accel && *accel != Engine::default());
-        say("accel", other_engine.map(|(word, _)| (*word).to_owned()));
+        say("accel", Some(accel.word.to_owned()).filter(|word| word != DEFAULT_SEARCH));
         if *lenient {
             words.push("--lenient".to_owned());
         }
@@ -195,10 +235,17 @@ fn show() -> impl TypedValueParser<Value = Show> {
     PossibleValuesParser::new(Show::WORDS).try_map(|word| Show::from_word(&word).ok_or("unknown"))
 }
 
-fn engine() -> impl TypedValueParser<Value = Engine> {
-    let words = ENGINES.map(|(word, _)| word);
-    PossibleValuesParser::new(words)
-        .try_map(|word| ENGINES.iter().find(|(w, _)| *w == word).map(|(_, engine)| *engine).ok_or("unknown"))
+impl Search {
+    fn value(self) -> PossibleValue {
+        let value = PossibleValue::new(self.word).help(self.about);
+        // What it was called when there was but one hierarchy.
+        if self.word == DEFAULT_SEARCH { value.alias("bvh") } else { value }
+    }
+}
+
+fn search() -> impl TypedValueParser<Value = Search> {
+    PossibleValuesParser::new(SEARCHES.map(Search::value))
+        .try_map(|word| SEARCHES.into_iter().find(|s| s.value().matches(&word, false)).ok_or("unknown"))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What a user may ask for beyond what the scene says.
 use std::path::PathBuf;
 
-use durer_accel::Engine;
+use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
 use durer_render::{film::Tile, integrator::Show};
 use durer_scene::Missing;
@@ -38,6 +38,8 @@ pub struct Options {
     pub shutter: Option<Interval>,
     /// Hierarchy or brute force.
     pub engine: Engine,
+    /// How much work goes into the hierarchy. It changes no bit of the picture.
+    pub preset: Preset,
     /// Changes every random number.
     pub seed: u64,
     /// Worker threads; all cores if `None`.

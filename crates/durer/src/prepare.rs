@@ -1,4 +1,5 @@
 //! A description and wishes to something that renders.
+use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
 use durer_render::{
@@ -58,7 +59,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     let size = picture_size(desc, options, diagnostics);
     let (width, height) = size.unwrap_or(DEFAULT_SIZE);
     let compile_options = CompileOptions {
-        engine: options.engine,
+        accel: BuildOptions { engine: options.engine, preset: options.preset, ..BuildOptions::default() },
         missing: options.missing,
         camera: options.camera.clone(),
         time: options.time,

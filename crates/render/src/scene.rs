@@ -34,22 +34,21 @@ pub struct Object {
 /// What the instances of the kernel stand for.
 #[derive(Clone, Debug)]
 pub(crate) enum Target {
-    /// All still meshes that are used once, in render space; see [`Scene::merged`].
-    Merged,
+    /// A still mesh that is used once, in render space.
+    Baked(Id<Object>, Arc<Mesh>),
     /// All still shapes; the primitive is the index in [`Scene::shapes`].
     Shapes,
     /// One moving shape: an index in [`Scene::movers`].
     Mover(u32),
-    /// A mesh that is used several times, or moves.
+    /// A mesh that is used several times, or moves, in its own space.
     Mesh(Id<Object>, Arc<Mesh>),
 }
 
-/// A mesh of the merged tree, in render space.
-#[derive(Debug)]
-pub(crate) struct MergedMesh {
-    pub(crate) first_triangle: u32,
-    pub(crate) object: Id<Object>,
-    pub(crate) mesh: Mesh,
+impl Target {
+    /// Whether it is no mesh.
+    fn is_shape(&self) -> bool {
+        matches!(self, Self::Shapes | Self::Mover(_))
+    }
 }
 
 /// A shape that is no mesh.
@@ -125,109 +124,74 @@ pub struct Scene {
     /// The ray-intersection kernel.
     pub accel: Accel,
     pub(crate) targets: Vec<Target>,
-    pub(crate) merged: Vec<MergedMesh>,
     pub(crate) shapes: Vec<PlacedShape>,
     pub(crate) movers: Vec<PlacedShape>,
-    /// True if some material has holes, so that hits must be asked about them.
-    pub(crate) has_holes: bool,
-    /// True if some material is not seen from behind.
-    pub(crate) has_backs: bool,
 }
 
-impl UserGeometry for Scene {
+/// The scene's own part of a ray's way: shapes that are no meshes, and what is not there for the ray.
+struct Asked<'a> {
+    cx: &'a SampleCx<'a>,
+    /// The ray in render space.
+    ray: &'a Ray,
+    /// Whether shapes hide their backs; the kernel hides those of triangles.
+    culls: bool,
+}
+
+impl UserGeometry for Asked<'_> {
+    const FILTERS: bool = true;
+
     fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
-        let placed = match self.targets[instance as usize] {
-            Target::Mover(index) => &self.movers[index as usize],
-            _ => &self.shapes[prim as usize],
+        let scene = self.cx.scene;
+        let placed = match scene.targets[instance as usize] {
+            Target::Mover(index) => &scene.movers[index as usize],
+            _ => &scene.shapes[prim as usize],
         };
         let m = &placed.object_from_render;
         let local = Ray { o: m.point(ray.o), d: m.vector(ray.d), t_min: ray.t_min, t_max, time: ray.time };
         let hit = placed.shape.intersect(&local)?;
         Some(PrimitiveHit { t: hit.t, u: hit.u, v: hit.v })
     }
-}
 
-/// A scene some of whose surfaces are cut out by textures, or not seen from behind.
-struct Holed<'a> {
-    cx: &'a SampleCx<'a>,
-    /// The ray in render space.
-    ray: &'a Ray,
-    /// Whether surfaces hide their backs.
-    culls: bool,
-}
-
-impl UserGeometry for Holed<'_> {
-    const FILTERS: bool = true;
-
-    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
-        self.cx.scene.intersect(instance, prim, ray, t_max)
-    }
+    /// False in holes, and on the backs of shapes that hide them.
     fn accepts(&self, hit: &Hit) -> bool {
         let Self { cx, ray, culls } = *self;
-        let (object, prim) = cx.scene.resolve(hit);
-        let material = cx.scene.material(object);
-        let is_hidden = culls && material.is_one_sided() && cx.scene.is_back(ray, hit, object, prim);
-        let is_hole = || {
-            material.has_holes() && material.is_hole(&cx.shade(), &cx.scene.surface(ray, hit).1.texture_at())
-        };
-        !is_hidden && !is_hole()
+        let material = cx.scene.material(cx.scene.resolve(hit).0);
+        let may_hide = culls && material.is_one_sided() && cx.scene.targets[hit.instance as usize].is_shape();
+        if !may_hide && !material.has_holes() {
+            return true;
+        }
+        let surface = cx.scene.surface(ray, hit).1;
+        let is_hidden = may_hide && !surface.is_outside(-ray.d);
+        let is_hole = || material.has_holes() && material.is_hole(&cx.shade(), &surface.texture_at());
+        !(is_hidden || is_hole())
     }
 }
 
 impl Scene {
-    /// The nearest hit that is no hole.
+    /// The nearest hit that is there for rays that see: neither a hole nor the back of something one-sided.
     pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
-        match self.has_holes || self.has_backs {
-            true => self.accel.query(ray).user(&Holed { cx, ray, culls: true }).probe(probe, id).closest(),
-            false => self.accel.query(ray).user(self).probe(probe, id).closest(),
-        }
+        let asked = Asked { cx, ray, culls: true };
+        self.accel.query(ray).user(&asked).cull_backs(true).probe(probe, id).closest()
     }
 
     /// True if anything that is no hole lies on the ray.
     pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
-        match self.has_holes {
-            true => self.accel.query(ray).user(&Holed { cx, ray, culls: false }).probe(probe, id).any(),
-            false => self.accel.query(ray).user(self).probe(probe, id).any(),
-        }
+        self.accel.query(ray).user(&Asked { cx, ray, culls: false }).probe(probe, id).any()
     }
 
     /// The nearest object that casts a shadow on the ray; unwatched.
     pub fn blocker(&self, cx: &SampleCx<'_>, ray: &Ray) -> Option<Id<Object>> {
-        let holed = Holed { cx, ray, culls: false };
-        self.accel.query(ray).user(&holed).closest().map(|hit| self.resolve(&hit).0)
-    }
-
-    /// True if the ray met something from behind. The winding of triangles decides, as it does for rasterisers,
-    /// whatever the vertex normals say.
-    fn is_back(&self, ray: &Ray, hit: &Hit, object: Id<Object>, prim: u32) -> bool {
-        let (mesh, d) = match &self.targets[hit.instance as usize] {
-            Target::Merged => (&self.merged_at(hit.prim).mesh, ray.d),
-            Target::Mesh(_, mesh) => {
-                let to_render = self.accel.instance_transform(hit.instance, ray.time);
-                (&**mesh, to_render.inverse().vector(ray.d))
-            }
-            Target::Shapes | Target::Mover(_) => return !self.surface(ray, hit).1.is_outside(-ray.d),
-        };
-        let [a, b, c] = mesh.corners(mesh.indices[prim as usize].map(|i| i as usize), ray.time);
-        let front = (b - a).cross(c - a).dot(d) <= 0.0;
-        front == self.object(object).reverse_orientation
+        let asked = Asked { cx, ray, culls: false };
+        self.accel.query(ray).user(&asked).closest().map(|hit| self.resolve(&hit).0)
     }
 
     /// The object of a hit, and the hit triangle's number within its mesh.
     pub fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
         match &self.targets[hit.instance as usize] {
-            Target::Merged => {
-                let merged = self.merged_at(hit.prim);
-                (merged.object, hit.prim - merged.first_triangle)
-            }
+            Target::Baked(object, _) | Target::Mesh(object, _) => (*object, hit.prim),
             Target::Shapes => (self.shapes[hit.prim as usize].object, 0),
             Target::Mover(index) => (self.movers[*index as usize].object, 0),
-            Target::Mesh(object, _) => (*object, hit.prim),
         }
-    }
-
-    fn merged_at(&self, prim: u32) -> &MergedMesh {
-        &self.merged[self.merged.partition_point(|m| m.first_triangle <= prim) - 1]
     }
 
     /// The place of a hit that this ray found, in render space.
@@ -239,12 +203,10 @@ impl Scene {
             (placed.object, placed.shape.surface(&local, &local_hit).placed(to_render, reverse))
         };
         match &self.targets[hit.instance as usize] {
-            Target::Merged => {
-                let merged = self.merged_at(hit.prim);
-                let surface =
-                    mesh_surface(&merged.mesh, hit.prim - merged.first_triangle, [hit.u, hit.v], ray.time);
-                let reverse = self.object(merged.object).reverse_orientation;
-                (merged.object, if reverse { surface.reversed() } else { surface })
+            Target::Baked(object, mesh) => {
+                let surface = mesh_surface(mesh, hit.prim, [hit.u, hit.v], ray.time);
+                let reverse = self.object(*object).reverse_orientation;
+                (*object, if reverse { surface.reversed() } else { surface })
             }
             Target::Mesh(object, mesh) => {
                 let to_render = self.accel.instance_transform(hit.instance, ray.time);

@@ -173,7 +173,7 @@ pub(super) fn assemble(
     let mut unbounded = Vec::new();
     let (mut placed, mut moving) = (Vec::new(), Vec::new());
     let mut endless = Vec::new();
-    for (index, (instance, &merged)) in (0u32..).zip(instances.iter().zip(&merged)) {
+    for (index, (instance, &merged)) in (0u32..).zip(instances.iter_mut().zip(&merged)) {
         let geometry = instance.geometry.index();
         if merged {
             let items = &geometries[geometry].items;
@@ -183,6 +183,8 @@ pub(super) fn assemble(
                 Pose::Still(m) => Some(*m),
                 _ => None,
             };
+            // Which side is the back is said of object space, and asked of the triangle where it is placed.
+            instance.seen.is_reversed ^= place.is_some_and(|m| m.swaps_handedness());
             let (part, more) = still_part(&sources[geometry], items, first_id, place);
             parts.push(part);
             unbounded.extend(more);

@@ -45,10 +45,12 @@ pub struct Visibility {
     pub hides_backs: bool,
     /// The other side is the back.
     pub is_reversed: bool,
+    /// Hits are put to `UserGeometry::accepts` of queries that filter; false where it would let all of them count.
+    pub is_filtered: bool,
 }
 
 impl Default for Visibility {
     fn default() -> Self {
-        Self { mask: u32::MAX, hides_backs: false, is_reversed: false }
+        Self { mask: u32::MAX, hides_backs: false, is_reversed: false, is_filtered: true }
     }
 }

@@ -155,6 +155,10 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     /// Whether the ray may see this hit: mask, side and filter.
     #[cold]
     fn triangle_counts(&self, packet: &R, hit: &Best) -> bool {
+        // Unused lanes repeat the first one, which was asked about.
+        if hit.place.lane > 0 && hit.place.id == packet.ids()[0] {
+            return false;
+        }
         let (instance, prim) = self.cx.primitive(hit.place.instance, hit.place.id);
         let placed = &self.cx.accel.instances[instance as usize];
         if placed.seen.mask & self.cx.mask == 0 {
@@ -172,7 +176,8 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
 
     /// Whether the caller's filter lets the hit count.
     fn passes(&self, instance: u32, prim: u32, hit: &Best) -> bool {
-        !self.cx.filters || {
+        let asks = self.cx.filters && self.cx.accel.instances[instance as usize].seen.is_filtered;
+        !asks || {
             let (prim, u, v) = self.cx.accel.called(instance, prim, hit.u, hit.v);
             let n_g = durer_core::math::Vector3::ZERO;
             self.cx.callback.accepts(&Hit { t: hit.t, instance, prim, u, v, n_g })

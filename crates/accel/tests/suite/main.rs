@@ -4,6 +4,7 @@ mod corpus;
 mod curves;
 mod edge_cases;
 mod equality;
+mod filtered;
 mod icosphere;
 mod instancing;
 mod points;

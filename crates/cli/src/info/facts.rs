@@ -32,6 +32,8 @@ pub(super) struct Info<'a> {
     /// What the scene asks for.
     pub(super) integrator: Option<&'a str>,
     pub(super) render: Option<Render<'a>>,
+    /// The vector instructions that rays walk the hierarchy with.
+    pub(super) isa: Option<&'static str>,
     pub(super) memory: Option<Memory>,
     pub(super) seconds: Phases,
     pub(super) doctor: &'a [String],
@@ -60,7 +62,7 @@ pub(super) struct Counts {
     pub(super) other_shapes: Option<u64>,
     /// In the kernel, a shared mesh once.
     pub(super) triangles: Option<u64>,
-    /// In the kernel: the merged still meshes, the shapes that are none, and each shared or moving mesh.
+    /// In the kernel: each placed mesh, the still shapes that are none as one, each moving one.
     pub(super) instances: Option<u64>,
     pub(super) nodes: Option<u64>,
 }
@@ -135,6 +137,7 @@ impl<'a> Info<'a> {
             view: prepared.map(camera::view),
             lights: desc.lights.iter().map(|l| named(&l.name, &l.node)).collect(),
             materials: desc.materials.iter().map(|NamedNode { name, node }| named(name, node)).collect(),
+            isa: prepared.map(|p| p.scene.accel.isa().name()),
             memory: prepared.map(|p| Memory::new(p, texture::image_bytes(desc, &imported.assets))),
             textures,
             film: Film {

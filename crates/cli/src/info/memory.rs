@@ -12,6 +12,8 @@ pub(super) struct Memory {
     pub(super) hierarchy: u64,
     /// The same, guessed from the counts before they were built.
     pub(super) hierarchy_expected: u64,
+    /// What building them takes at most, guessed likewise.
+    pub(super) hierarchy_building: u64,
     /// Meshes as described, a shared one once.
     pub(super) meshes: u64,
     /// Copies of meshes that were moved to where they stand.
@@ -35,6 +37,7 @@ impl Memory {
         Self {
             hierarchy: prepared.scene.accel.stats().bytes,
             hierarchy_expected: report.expected_bytes,
+            hierarchy_building: report.building_bytes,
             meshes: report.geometry.mesh_bytes,
             meshes_placed: report.placed_mesh_bytes,
             textures,

@@ -61,7 +61,7 @@ pub(super) fn table(info: &Info<'_>, imported: &Imported, detail: Detail) -> Str
     row("integrator", integrator(info));
     row("memory", info.memory.as_ref().map(memory).unwrap_or_default());
     if detail == Detail::Full {
-        row("hierarchy", vec![hierarchy(&info.counts)]);
+        row("hierarchy", vec![hierarchy(info)]);
     }
     row("time", vec![time(&info.seconds)]);
     row("diagnostics", vec![diagnostics(&info.complaints)]);
@@ -267,20 +267,23 @@ fn memory(m: &Memory) -> Vec<String> {
     };
     line(m.meshes + m.meshes_placed, "scene geometry", String::new());
     line(m.textures, "textures", String::new());
-    let estimated = format!("  (estimated: {})", bytes(m.hierarchy_expected));
+    let [kept, building] = [m.hierarchy_expected, m.hierarchy_building].map(bytes);
+    let estimated = format!("  (estimated: {kept}, while it is built: {building})");
     line(m.hierarchy, "acceleration structure", estimated);
     line(m.film, "picture", "  (once rendering begins)".to_owned());
     line(m.peak.unwrap_or(0), "peak of the process", "  (until now, without the picture)".to_owned());
     lines
 }
 
-fn hierarchy(c: &Counts) -> String {
+fn hierarchy(info: &Info<'_>) -> String {
+    let c = &info.counts;
     let of = |n: Option<u64>, one, many| counted(n.unwrap_or(0), one, many);
     format!(
-        "{}, {}, {}",
+        "{}, {}, {}, walked with {}",
         of(c.triangles, "triangle", "triangles"),
         of(c.instances, "instance", "instances"),
-        of(c.nodes, "node", "nodes")
+        of(c.nodes, "node", "nodes"),
+        info.isa.unwrap_or("nothing")
     )
 }
 

@@ -76,6 +76,20 @@ fn missing_files_are_named_once() {
 }
 
 #[test]
+fn what_the_kernel_refuses_is_named() {
+    let far = "WorldBegin\nShape \"sphere\"\nScale 1e38 1e38 1e38\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 9 0]\n";
+    let camera = "Camera \"perspective\"\n";
+    let place = Place::new().with("far.pbrt", &format!("{camera}{far}"));
+    let ran = place.run("render far.pbrt --width 8 --spp 1");
+    assert_eq!(ran.code, 1, "{}", ran.stderr);
+    assert!(
+        ran.stderr.contains("trianglemesh 1: vertex 2 has a coordinate that is infinite"),
+        "{}",
+        ran.stderr
+    );
+}
+
+#[test]
 fn near_words_are_offered() {
     let place = Place::new();
     for (words, code, near) in [

@@ -1,22 +1,27 @@
-//! Shapes into the kernel: still meshes used once are merged into one tree, the rest become instances.
+//! Shapes into the kernel: still meshes used once are moved to where they stand, the rest become instances.
 use std::{
     collections::{HashMap, hash_map::Entry},
     sync::Arc,
     time::{Duration, Instant},
 };
 
-use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, Engine, GeometryId, Placement, Triangles};
+use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, GeometryId, Placement, Visibility};
 use durer_core::{
     Id,
     glam::DAffine3,
     math::{Bounds3, Motion, Normal3, Point3, Transform, Vector3},
 };
-use durer_model::shape::{Geometry, Shape};
+use durer_model::{
+    material::Material,
+    shape::{Geometry, Shape},
+};
 use durer_scene::{Diagnostics, Location, Mesh, SceneDesc, ShapeDesc, ShapeSource};
+use rayon::prelude::*;
 
+use super::report::mesh_bytes;
 use crate::{
     Object,
-    scene::{MergedMesh, PlacedShape, Target},
+    scene::{PlacedShape, Target},
 };
 
 /// What becomes of the shapes of a description.
@@ -24,9 +29,10 @@ pub(super) struct Placed {
     pub(super) accel: Accel,
     pub(super) objects: Vec<Object>,
     pub(super) targets: Vec<Target>,
-    pub(super) merged: Vec<MergedMesh>,
     pub(super) shapes: Vec<PlacedShape>,
     pub(super) movers: Vec<PlacedShape>,
+    /// Heap memory of the copies of meshes that were moved to where they stand.
+    pub(super) placed_mesh_bytes: u64,
     /// What the trees took.
     pub(super) building: Duration,
 }
@@ -36,7 +42,8 @@ pub(super) struct Placing<'a> {
     pub(super) desc: &'a SceneDesc,
     pub(super) render_from_world: DAffine3,
     pub(super) default_material: u32,
-    pub(super) engine: Engine,
+    pub(super) materials: &'a [Box<dyn Material>],
+    pub(super) accel: BuildOptions,
 }
 
 /// A mesh on its way into the kernel.
@@ -149,7 +156,7 @@ impl Placing<'_> {
         match self.build(pending, objects) {
             Ok(placed) => Some(placed),
             Err(error) => {
-                diagnostics.error(Location::None, error.to_string());
+                diagnostics.error(Location::None, error);
                 None
             }
         }
@@ -175,28 +182,42 @@ impl Placing<'_> {
         }
     }
 
-    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, BuildError> {
-        let mut kernel = AccelBuilder::new(BuildOptions { engine: self.engine, ..BuildOptions::default() });
-        let mut targets = Vec::new();
+    /// Hands everything to the kernel; an error says which object it is about.
+    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, String> {
+        let Pending { meshes, shapes, movers } = pending;
         let (single, several): (Vec<_>, Vec<_>) =
-            pending.meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
+            meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
+        let baked = bake(single);
+        let placed_mesh_bytes = baked.iter().map(|(_, mesh)| mesh_bytes(mesh)).sum();
+        let seen = |object: Id<Object>| self.seen(&objects[object.index()]);
+        let about = |object: Id<Object>| {
+            let name = &objects[object.index()].name;
+            move |error: BuildError| format!("{name}: {error}")
+        };
+        let whole = |error: BuildError| error.to_string();
 
-        let (merged, triangles) = merge(single);
         let start = Instant::now();
-        if !merged.is_empty() {
-            let geometry = kernel.triangles(triangles)?;
-            kernel.instance(geometry, Placement::Identity)?;
-            targets.push(Target::Merged);
+        let mut kernel = AccelBuilder::new(self.accel);
+        let mut targets = Vec::new();
+        for (object, mesh) in &baked {
+            let geometry = kernel.borrowed_triangles(&mesh.positions, &mesh.indices);
+            let geometry = geometry.map_err(about(*object))?;
+            kernel.instance_seen(geometry, Placement::Identity, seen(*object)).map_err(about(*object))?;
+            targets.push(Target::Baked(*object, Arc::clone(mesh)));
         }
-        if !pending.shapes.is_empty() {
-            let bounds = pending.shapes.iter().map(|s| s.render_from_object.bounds(&s.shape.bounds()));
-            let geometry = kernel.user(bounds.collect())?;
-            kernel.instance(geometry, Placement::Identity)?;
+        if !shapes.is_empty() {
+            let bounds = shapes.iter().map(|s| s.render_from_object.bounds(&s.shape.bounds()));
+            let geometry = kernel.user(bounds.collect()).map_err(whole)?;
+            let is_filtered = shapes.iter().any(|s| shape_seen(seen(s.object)).is_filtered);
+            let seen = Visibility { is_filtered, ..Visibility::default() };
+            kernel.instance_seen(geometry, Placement::Identity, seen).map_err(whole)?;
             targets.push(Target::Shapes);
         }
-        for (index, (mover, motion)) in pending.movers.iter().enumerate() {
-            let geometry = kernel.user(vec![mover.shape.bounds()])?;
-            kernel.instance(geometry, Placement::from_motion(motion))?;
+        for (index, (mover, motion)) in movers.iter().enumerate() {
+            let geometry = kernel.user(vec![mover.shape.bounds()]).map_err(about(mover.object))?;
+            let seen = shape_seen(seen(mover.object));
+            let placement = Placement::from_motion(motion);
+            kernel.instance_seen(geometry, placement, seen).map_err(about(mover.object))?;
             targets.push(Target::Mover(index as u32));
         }
         let mut known: HashMap<*const Mesh, GeometryId> = HashMap::new();
@@ -205,33 +226,41 @@ impl Placing<'_> {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
                     let keys = (0..mesh.keys()).map(|key| mesh.key(key));
-                    *new.insert(kernel.keyed_triangles(&mesh.indices, keys)?)
+                    *new.insert(kernel.keyed_triangles(&mesh.indices, keys).map_err(about(*object))?)
                 }
             };
-            kernel.instance(geometry, Placement::from_motion(motion))?;
+            let placement = Placement::from_motion(motion);
+            kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
             targets.push(Target::Mesh(*object, Arc::clone(mesh)));
         }
-        let movers = pending.movers.into_iter().map(|(mover, _)| mover).collect();
-        let accel = kernel.build()?;
+        let accel = kernel.build().map_err(whole)?;
         let building = start.elapsed();
-        Ok(Placed { accel, objects, targets, merged, shapes: pending.shapes, movers, building })
+        let movers = movers.into_iter().map(|(mover, _)| mover).collect();
+        Ok(Placed { accel, objects, targets, shapes, movers, placed_mesh_bytes, building })
+    }
+
+    /// How the triangles of an object are seen.
+    fn seen(&self, object: &Object) -> Visibility {
+        // A material that could not be built was complained about.
+        let material = self.materials.get(object.material as usize);
+        Visibility {
+            hides_backs: material.is_some_and(|m| m.is_one_sided()),
+            is_reversed: object.reverse_orientation,
+            is_filtered: material.is_some_and(|m| m.has_holes()),
+            ..Visibility::default()
+        }
     }
 }
 
-/// All meshes in render space, one after another.
-fn merge(meshes: Vec<PendingMesh>) -> (Vec<MergedMesh>, Triangles) {
-    let mut merged = Vec::new();
-    let mut all = Triangles::default();
-    for PendingMesh { object, mesh, motion, .. } in meshes.into_iter().filter(|m| !m.mesh.indices.is_empty())
-    {
-        let mesh = baked(&mesh, &motion.at(0.0));
-        let base = all.positions.len() as u32;
-        let first_triangle = all.indices.len() as u32;
-        all.positions.extend_from_slice(&mesh.positions);
-        all.indices.extend(mesh.indices.iter().map(|t| t.map(|i| i + base)));
-        merged.push(MergedMesh { first_triangle, object, mesh });
-    }
-    (merged, all)
+/// The same of a shape that is no mesh: the kernel does not know its front.
+fn shape_seen(seen: Visibility) -> Visibility {
+    Visibility { is_filtered: seen.is_filtered || seen.hides_backs, hides_backs: false, ..seen }
+}
+
+/// Still meshes in render space; those without triangles are left out.
+fn bake(meshes: Vec<PendingMesh>) -> Vec<(Id<Object>, Arc<Mesh>)> {
+    let bake = |m: PendingMesh| (m.object, Arc::new(baked(&m.mesh, &m.motion.at(0.0))));
+    meshes.into_par_iter().filter(|m| !m.mesh.indices.is_empty()).map(bake).collect()
 }
 
 fn at(shape: &ShapeDesc) -> Location {

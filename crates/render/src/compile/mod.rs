@@ -11,7 +11,7 @@ mod report;
 
 use std::time::{Duration, Instant};
 
-use durer_accel::Engine;
+use durer_accel::BuildOptions;
 use durer_core::{
     glam::{DAffine3, DVec3},
     math::{Interval, Transform},
@@ -27,8 +27,8 @@ pub use report::{GeometryCounts, Report, Times};
 /// How to compile, beyond what the description says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompileOptions {
-    /// Hierarchy or brute force.
-    pub engine: Engine,
+    /// How rays find their hits.
+    pub accel: BuildOptions,
     /// What becomes of missing images.
     pub missing: Missing,
     /// Pixels per row.
@@ -47,7 +47,7 @@ impl CompileOptions {
     /// Options for a picture of this size.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
-            engine: Engine::default(),
+            accel: BuildOptions::default(),
             missing: Missing::default(),
             width,
             height,
@@ -96,7 +96,8 @@ pub fn compile(
         desc,
         render_from_world: DAffine3::from_translation(-origin),
         default_material,
-        engine: options.engine,
+        materials: &materials,
+        accel: options.accel,
     };
     let (placed, of_placing) = timed(|| placing.place(shapes, diagnostics));
     let (view, placed) = (view?, placed?);
@@ -104,8 +105,6 @@ pub fn compile(
     if diagnostics.has_errors() {
         return None;
     }
-    let has_holes = materials.iter().any(|m| m.has_holes());
-    let has_backs = materials.iter().any(|m| m.is_one_sided());
     let (lights, light_names): (Vec<Box<dyn Light>>, _) = lights.into_iter().unzip();
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
@@ -121,11 +120,8 @@ pub fn compile(
         view,
         accel: placed.accel,
         targets: placed.targets,
-        merged: placed.merged,
         shapes: placed.shapes,
         movers: placed.movers,
-        has_holes,
-        has_backs,
     })
 }
 
