@@ -77,4 +77,11 @@ macro_rules! kernel {
 }
 
 kernel!(Avx2, Ymm<Avx2>, Node<8>, MovingNode<8>, 5, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
-kernel!(Avx512, Zmm, Node<16>, MovingNode<16>, "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+kernel!(
+    Avx512,
+    Zmm,
+    Node<16>,
+    MovingNode<16>,
+    7,
+    "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt"
+);
