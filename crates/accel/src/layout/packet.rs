@@ -9,7 +9,7 @@ pub(crate) const PACKET: usize = 8;
 /// Coordinates of eight points, by axis.
 type Points = [[f32; PACKET]; 3];
 
-/// Eight triangles. A lane that is not used repeats lane 0, id and all, so that its hits lose every tie.
+/// Eight triangles. A lane that is not used has no place (NaN), so that no test finds it hit, and no name.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Packet {
@@ -41,8 +41,7 @@ pub(crate) trait PacketRecord: Record + Send + Sync {
     fn triangle(&self, lane: usize, u: f32) -> [Point3; 3];
     /// Lanes that are used.
     fn len(&self) -> usize {
-        let ids = self.ids();
-        ids[1..].iter().position(|id| *id == ids[0]).map_or(PACKET, |at| at + 1)
+        self.ids().iter().position(|id| *id == NOBODY).unwrap_or(PACKET)
     }
     /// Writes the triangles `(id, vertices at the start, at the end)`, 1 to 8 of them.
     fn of(triangles: &[(u32, [[Point3; 3]; 2])]) -> Self;
@@ -57,13 +56,23 @@ pub(crate) enum Axis {
     Z,
 }
 
+/// The name of a lane that is not used.
+const NOBODY: u32 = u32::MAX;
+
 fn points(triangles: &[(u32, [[Point3; 3]; 2])], key: usize) -> [Points; 3] {
-    let lane = |i: usize| if i < triangles.len() { &triangles[i].1[key] } else { &triangles[0].1[key] };
-    std::array::from_fn(|vertex| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[vertex][axis])))
+    let mut points = [[[f32::NAN; PACKET]; 3]; 3];
+    for (lane, (_, keys)) in triangles.iter().enumerate() {
+        for (vertex, corner) in keys[key].iter().enumerate() {
+            for axis in 0..3 {
+                points[vertex][axis][lane] = corner[axis];
+            }
+        }
+    }
+    points
 }
 
 fn ids(triangles: &[(u32, [[Point3; 3]; 2])]) -> [u32; PACKET] {
-    std::array::from_fn(|i| triangles.get(i).unwrap_or(&triangles[0]).0)
+    std::array::from_fn(|i| triangles.get(i).map_or(NOBODY, |triangle| triangle.0))
 }
 
 #[inline(always)]

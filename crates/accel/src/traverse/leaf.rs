@@ -106,8 +106,15 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
             bits &= bits - 1;
             let at = lane as usize % PACKET;
             let t = self.found.t[at];
-            if t > best.t || (t == best.t && !self.wins_tie(row, packet, lane, best)) {
+            if t > best.t {
                 continue;
+            }
+            if t == best.t {
+                // PERF: a triangle that was cut is met again in another leaf (bench kernel).
+                let again = packet.ids()[at] == best.place.id && self.level.instance == best.place.instance;
+                if again || !self.wins_tie(row, packet, lane, best) {
+                    continue;
+                }
             }
             if self.cx.checks && !self.triangle_counts(packet, &self.lane(row, packet, lane)) {
                 continue;
@@ -155,10 +162,6 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     /// Whether the ray may see this hit: mask, side and filter.
     #[cold]
     fn triangle_counts(&self, packet: &R, hit: &Best) -> bool {
-        // Unused lanes repeat the first one, which was asked about.
-        if hit.place.lane > 0 && hit.place.id == packet.ids()[0] {
-            return false;
-        }
         let (instance, prim) = self.cx.primitive(hit.place.instance, hit.place.id);
         let placed = &self.cx.accel.instances[instance as usize];
         if placed.seen.mask & self.cx.mask == 0 {
