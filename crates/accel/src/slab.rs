@@ -47,18 +47,19 @@ impl Slab {
     #[inline(always)]
     pub(crate) fn new<const ROBUST: bool>(ray: &Ray, largest: f32, region: f32) -> Self {
         let (o, d) = (lanes(ray.o.to_array()), lanes(ray.d.to_array()));
-        let (size, away) = (d.abs(), o.abs());
+        let size = d.abs();
         let floor = f32x4::splat(greater(FLOOR * largest, finite_floor(ray, region)));
         let slack = f32x4::splat(if ROBUST { SLACK * largest } else { 0.0 });
         let origin_slack = f32x4::splat(if ROBUST { ORIGIN_SLACK } else { 0.0 });
         // PERF: in vectors, for ten divisions one after another are a tenth of a short ray (bench kernel).
         let near = (f32x4::ONE / (size + slack).fast_max(floor)).copysign(d);
         let far = (f32x4::ONE / (size - slack).fast_max(floor)).copysign(d);
+        let (at_near, at_far) = (o * near, o * far);
         Self {
             near_r: near,
-            near_c: -(o * near) - origin_slack * (away * near.abs()),
+            near_c: -at_near - origin_slack * at_near.abs(),
             far_r: far,
-            far_c: origin_slack * (away * far.abs()) - o * far,
+            far_c: origin_slack * at_far.abs() - at_far,
             near_side: [sign(ray.d.x), sign(ray.d.y), sign(ray.d.z)],
             o,
             behind: f32x4::ZERO,
