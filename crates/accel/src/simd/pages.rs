@@ -82,7 +82,7 @@ impl Pages {
     /// # Panics
     /// If `row` lies beyond the end.
     pub(crate) fn slice_mut<R: Record>(&mut self, row: u32) -> &mut [R] {
-        const { assert!(align_of::<R>() <= ROW && size_of::<R>() % ROW == 0) };
+        const { assert!(align_of::<R>() <= ROW && size_of::<R>().is_multiple_of(ROW)) };
         let rows = self.rows.checked_sub(row as usize).expect("a row of the tree");
         let count = rows / (size_of::<R>() / ROW);
         // SAFETY: `count` records from `row` on lie within the rows; aligned and plain as in `get`.
@@ -94,7 +94,7 @@ impl Pages {
 
     #[inline(always)]
     fn check<R: Record>(&self, row: u32) {
-        const { assert!(align_of::<R>() <= ROW && size_of::<R>() % ROW == 0) };
+        const { assert!(align_of::<R>() <= ROW && size_of::<R>().is_multiple_of(ROW)) };
         assert!(row as usize + size_of::<R>() / ROW <= self.rows, "a record outside the tree");
     }
 

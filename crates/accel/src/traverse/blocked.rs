@@ -18,7 +18,7 @@ pub(crate) fn blocked<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) -> bool {
     let tree = level.tree();
-    enter_space!(space, ROBUST, level.ray, level.forest.region, false);
+    enter_space!(space, ROBUST, level.ray, level.forest.region);
     match &level.forest.trees {
         Trees::Still(_) => {
             let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);

@@ -19,7 +19,7 @@ pub(crate) fn nearest<K: Kernel, W: Watch, const ROBUST: bool>(
     watch: &mut W,
 ) {
     let tree = level.tree();
-    enter_space!(space, ROBUST, level.ray, level.forest.region, ());
+    enter_space!(space, ROBUST, level.ray, level.forest.region);
     match &level.forest.trees {
         Trees::Still(_) => {
             let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
