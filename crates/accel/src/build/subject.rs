@@ -45,33 +45,50 @@ impl Part<'_> {
         }
     }
 
-    /// The triangle numbered `at`, at both ends of the stretch.
-    fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
-        let placed = |p: Point3, place: &Option<Transform>| place.as_ref().map_or(p, |m| m.point(p));
-        match self {
-            Self::Triangles { positions, indices, place, .. } => {
-                Some([indices[at].map(|i| placed(positions[i as usize], place)); 2])
-            }
+    /// The triangle numbered `at`, at one end of the stretch.
+    ///
+    /// PERF: no `array::map`, which is not compiled away here (bench kernel, build).
+    #[inline]
+    fn corners(&self, at: usize, end: usize) -> Option<[Point3; 3]> {
+        let (positions, [a, b, c], place) = match self {
+            Self::Triangles { positions, indices, place, .. } => (*positions, indices[at], place),
             Self::Quads { mesh, place, .. } => {
                 let [a, b, c, d] = mesh.indices[at / 2];
-                let corners = if at.is_multiple_of(2) { [a, b, d] } else { [c, d, b] };
-                Some([corners.map(|i| placed(mesh.positions[i as usize], place)); 2])
+                let half = if at.is_multiple_of(2) { [a, b, d] } else { [c, d, b] };
+                (mesh.positions.as_slice(), half, place)
             }
-            Self::Keyed { start, end, indices } => {
-                Some([start, end].map(|key| indices[at].map(|i| key.1[i as usize])))
+            Self::Keyed { start, end: last, indices } => {
+                let key = if end == 0 { start } else { last };
+                (&*key.1, indices[at], &None)
             }
-            Self::Items(_) | Self::Instances(_) => None,
+            Self::Items(_) | Self::Instances(_) => return None,
+        };
+        let (a, b, c) = (positions[a as usize], positions[b as usize], positions[c as usize]);
+        Some(match place {
+            None => [a, b, c],
+            Some(m) => [m.point(a), m.point(b), m.point(c)],
+        })
+    }
+
+    /// The triangle at both ends of the stretch.
+    #[inline]
+    fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
+        let start = self.corners(at, 0)?;
+        match self {
+            Self::Keyed { .. } => Some([start, self.corners(at, 1)?]),
+            _ => Some([start; 2]),
         }
     }
 
+    #[inline]
     fn boxes(&self, at: usize) -> Stretch {
+        let around = |[a, b, c]: [Point3; 3]| Bounds3 { min: a.min(b).min(c), max: a.max(b).max(c) };
+        let end = |end: usize| self.corners(at, end).map_or(Bounds3::EMPTY, around);
         match self {
             Self::Items(list) => [list[at].1; 2],
             Self::Instances(list) => list[at].1,
-            _ => {
-                let corners = self.triangle(at).unwrap_or([[Point3::ZERO; 3]; 2]);
-                corners.map(|[a, b, c]| Bounds3 { min: a.min(b).min(c), max: a.max(b).max(c) })
-            }
+            Self::Keyed { .. } => [end(0), end(1)],
+            Self::Triangles { .. } | Self::Quads { .. } => [end(0); 2],
         }
     }
 
@@ -109,6 +126,7 @@ impl<'a> Subject<'a> {
         Self { parts, starts, total, moves }
     }
 
+    #[inline]
     fn find(&self, number: u32) -> (&Part<'a>, usize) {
         let part = match self.parts.len() {
             1 => 0,
@@ -132,6 +150,7 @@ impl<'a> Subject<'a> {
         })
     }
 
+    #[inline]
     pub(crate) fn boxes(&self, number: u32) -> Stretch {
         let (part, at) = self.find(number);
         part.boxes(at)
@@ -142,6 +161,7 @@ impl Primitives for Subject<'_> {
     fn len(&self) -> usize {
         self.total
     }
+    #[inline]
     fn bounds(&self, prim: u32) -> Bounds3 {
         let [start, end] = self.boxes(prim);
         if self.moves { start.union(end) } else { start }
