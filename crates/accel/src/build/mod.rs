@@ -27,13 +27,15 @@ pub(crate) use subject::Stretch;
 pub struct AccelBuilder<'a> {
     options: BuildOptions,
     sources: Vec<Source<'a>>,
+    /// Boxes around everything in each, and around what is finite there: asked for by every instance.
+    bounds: Vec<[Bounds3; 2]>,
     instances: Vec<Instance>,
 }
 
 impl<'a> AccelBuilder<'a> {
     /// An empty scene.
     pub fn new(options: BuildOptions) -> Self {
-        Self { options, sources: Vec::new(), instances: Vec::new() }
+        Self { options, sources: Vec::new(), bounds: Vec::new(), instances: Vec::new() }
     }
 
     /// Adds a mesh.
@@ -89,6 +91,7 @@ impl<'a> AccelBuilder<'a> {
 
     fn add(&mut self, source: Source<'a>) -> Result<GeometryId, BuildError> {
         let id = BuildError::check_count(self.sources.len(), "geometries")?;
+        self.bounds.push(source.bounds());
         self.sources.push(source);
         Ok(GeometryId(id))
     }
@@ -114,11 +117,11 @@ impl<'a> AccelBuilder<'a> {
         seen: Visibility,
     ) -> Result<u32, BuildError> {
         let index = BuildError::check_count(self.instances.len(), "instances")?;
-        let Some(source) = self.sources.get(geometry.index()) else {
+        let Some(&bounds) = self.bounds.get(geometry.index()) else {
             return Err(BuildError::GeometryUnknown { geometry: geometry.0 });
         };
         let pose = Pose::new(placement, self.instances.len())?;
-        self.instances.push(Instance::new(geometry, pose, source.bounds(), seen));
+        self.instances.push(Instance::new(geometry, pose, bounds, seen));
         Ok(index)
     }
 
