@@ -137,7 +137,7 @@ impl Accel {
         match self.items(instance) {
             Items::Quads(_) if prim % 2 == 1 => (prim / 2, 1.0 - u, 1.0 - v),
             Items::Quads(_) => (prim / 2, u, v),
-            Items::Triangles(_) | Items::Boxes(_) => (prim, u, v),
+            Items::Triangles(_) | Items::Boxes(_) | Items::Curves(..) | Items::Points(..) => (prim, u, v),
         }
     }
 
@@ -159,9 +159,14 @@ impl Accel {
             ..BuildStats::default()
         };
         for geometry in &self.geometries {
-            let (triangles, items) = geometry.counts();
-            stats.triangles += triangles;
-            stats.user_primitives += items;
+            let count = u64::from(geometry.items.len());
+            match &geometry.items {
+                // Of a quad both triangles are counted where they are stored.
+                Items::Triangles(_) | Items::Quads(_) => stats.triangles += count,
+                Items::Boxes(_) => stats.user_primitives += count,
+                Items::Curves(..) => stats.curve_segments += count,
+                Items::Points(..) => stats.points += count,
+            }
             stats.bytes += geometry.bytes() as u64;
         }
         let own = self.geometries.iter().filter_map(|g| Some(g.forest.as_ref()?.depth())).max();

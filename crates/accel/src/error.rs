@@ -1,6 +1,8 @@
 //! Why a scene cannot be built.
 use thiserror::Error;
 
+use crate::{curve::CurveError, point::PointError};
+
 /// A mistake in what was handed to the builder; the builder is left as it was before the call.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
@@ -32,6 +34,12 @@ pub enum BuildError {
         /// Index into the list of boxes.
         prim: usize,
     },
+    /// Curves are not sound.
+    #[error(transparent)]
+    Curves(#[from] CurveError),
+    /// Points are not sound.
+    #[error(transparent)]
+    Points(#[from] PointError),
     /// A placement squashes space flat or holds a number that is not finite.
     #[error(
         "transform {key} of instance {instance} cannot be inverted; use finite coefficients and no zero scale"

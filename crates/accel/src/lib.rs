@@ -1,7 +1,8 @@
 //! Where does a ray first meet the scene? A ray-intersection kernel, worth using alone.
 //!
 //! Two levels of bounding volume hierarchies: one tree over the triangles or boxes of each geometry, one tree over
-//! the placed instances. Shapes that are not triangles are boxes with a callback ([`UserGeometry`]). A second engine,
+//! the placed instances. Curves ([`curve`]) and points ([`point`]) are built in; all other shapes are boxes with a callback
+//! ([`UserGeometry`]). A second engine,
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
 //!
 //! # The contract of a hit

@@ -42,7 +42,7 @@ impl Accel {
 }
 
 impl<'q, U: UserGeometry, P: TraversalProbe> Query<'q, U, P> {
-    /// `user` answers for the boxes of `AccelBuilder::user`, and for holes.
+    /// `user` answers for the boxes of `AccelBuilder::user`, and for holes, those in curves and points too.
     #[inline]
     pub fn user<V: UserGeometry>(self, user: &'q V) -> Query<'q, V, P> {
         let Self { accel, ray, told, mask, culls, .. } = self;
@@ -187,16 +187,16 @@ impl<'a> Cx<'a> {
             return None;
         }
         let (instance, prim) = self.primitive(place.instance, place.id);
-        let n_g = self.normal(ray, place, instance);
+        let n_g = self.normal(ray, place, instance, prim);
         let (prim, u, v) = self.accel.called(instance, prim, best.u, best.v);
         Some(Hit { t: best.t, instance, prim, u, v, n_g })
     }
 
-    /// The normal of the hit triangle in its instance's object space; zero for shapes.
+    /// The normal of what is hit in its instance's object space.
     #[inline(always)]
-    fn normal(&self, ray: &Ray, place: &Place, instance: u32) -> Vector3 {
+    fn normal(&self, ray: &Ray, place: &Place, instance: u32, prim: u32) -> Vector3 {
         if place.row == Place::NO_PACKET {
-            return Vector3::ZERO;
+            return self.shape_normal(instance, prim, ray);
         }
         let owner = &self.accel.instances[instance as usize];
         let of = |[a, b, c]: [durer_core::math::Point3; 3]| (b - a).cross(c - a);

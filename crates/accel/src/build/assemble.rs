@@ -118,7 +118,7 @@ fn still_part<'s>(
             (Part::Triangles { positions, indices, place, first_id }, Vec::new())
         }
         Source::Quads(mesh) => (Part::Quads { mesh, place, first_id }, Vec::new()),
-        Source::Keyed { .. } | Source::Boxes(_) => {
+        _ => {
             let mut bounded = Vec::new();
             let mut unbounded = Vec::new();
             for prim in 0..items.len() {

@@ -13,7 +13,9 @@ use durer_core::math::{Bounds3, Point3};
 use crate::{
     Accel, BuildError, GeometryId, Placement,
     accel::Instance,
+    curve::Curves,
     placement::Pose,
+    point::Points,
     slab::{extent, grown},
 };
 
@@ -85,6 +87,25 @@ impl<'a> AccelBuilder<'a> {
     /// A box that is NaN or has `min > max`, or too many boxes.
     pub fn user(&mut self, bounds: Vec<Bounds3>) -> Result<GeometryId, BuildError> {
         self.add(Source::boxes(bounds)?)
+    }
+
+    /// Adds segments of curves, each a primitive. Hits have the `u` and `v` of [`CurveHit`](crate::curve::CurveHit) and its
+    /// unit normal, in object space; a curve under a transform that stretches it is stretched with its radii. They lie
+    /// in the space of the instance like shapes of the caller, but need no `UserGeometry`.
+    ///
+    /// # Errors
+    /// [`BuildError::Curves`] if [`Curves::check`] finds a mistake; too many segments.
+    pub fn curves(&mut self, curves: Curves) -> Result<GeometryId, BuildError> {
+        self.add(Source::curves(curves)?)
+    }
+
+    /// Adds points, each a primitive: spheres and discs. `u` and `v` of a hit are 0, its normal is that of
+    /// [`PointHit`](crate::point::PointHit), in object space.
+    ///
+    /// # Errors
+    /// [`BuildError::Points`] if [`Points::check`] finds a mistake; too many points.
+    pub fn points(&mut self, points: Points) -> Result<GeometryId, BuildError> {
+        self.add(Source::points(points)?)
     }
 
     fn add(&mut self, source: Source<'a>) -> Result<GeometryId, BuildError> {

@@ -8,6 +8,7 @@ mod exhaustive;
 mod kernel;
 mod leaf;
 mod nearest;
+mod shape;
 
 use durer_core::math::{Ray, Segment};
 

@@ -8,5 +8,6 @@ mod icosphere;
 mod instancing;
 mod points;
 mod properties;
+mod shapes;
 mod triangle;
 mod watertight;
