@@ -50,4 +50,5 @@ pub use placement::Placement;
 pub use probe::{NoTraversalProbe, TraversalCounts, TraversalProbe};
 pub use query::Query;
 pub use stats::BuildStats;
+pub use traverse::NearMiss;
 pub use user::{NoUserGeometry, UserGeometry};

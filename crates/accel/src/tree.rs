@@ -57,7 +57,7 @@ impl Tree {
     /// The box around the lanes of a node, and how many of them are leaves. `index` counts the tree's nodes.
     pub(crate) fn node_bounds<N: NodeWriter>(&self, index: u32) -> (Bounds3, u32) {
         let node: &N = self.pages.get(index * self.node_rows);
-        let lanes = (0..N::WIDTH).filter_map(|lane| node.lane(lane));
+        let lanes = (0..N::WIDTH).filter_map(|lane| node.lane(lane, 0.0));
         lanes.fold((Bounds3::EMPTY, 0), |(all, leaves), ([min, max], link)| {
             let leaf = !matches!(Link(link).target(), Target::Node(_));
             (all.union(Bounds3 { min: min.into(), max: max.into() }), leaves + u32::from(leaf))

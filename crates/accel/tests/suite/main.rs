@@ -6,6 +6,7 @@ mod edge_cases;
 mod equality;
 mod icosphere;
 mod instancing;
+mod near_misses;
 mod points;
 mod properties;
 mod shapes;
