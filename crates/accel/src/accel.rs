@@ -2,7 +2,7 @@
 use durer_core::math::{Bounds3, Transform};
 
 use crate::{
-    BuildOptions, BuildStats, Engine, GeometryId, Isa, Precision, Visibility,
+    BuildOptions, BuildStats, Engine, GeometryId, Isa, Precision, Preset, Visibility,
     build::Stretch,
     geometry::{Geometry, Items},
     isa::Registers,
@@ -59,6 +59,8 @@ pub struct NodeBounds {
 pub struct Accel {
     pub(crate) engine: Engine,
     pub(crate) precision: Precision,
+    /// For trees that are built anew.
+    pub(crate) preset: Preset,
     pub(crate) registers: Registers,
     /// The tree of everything that stands still and is used once, and of the instances that stand still.
     pub(crate) scene: Forest,
@@ -85,12 +87,13 @@ pub(crate) struct Parts {
 impl Accel {
     pub(crate) fn new(options: &BuildOptions, parts: Parts) -> Self {
         let Parts { registers, scene, movers, geometries, instances, owners } = parts;
-        let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
         let is_selective = instances.iter().any(|i| i.seen.mask != u32::MAX);
-        let (engine, precision) = (options.engine, options.precision);
+        let BuildOptions { engine, precision, preset, .. } = *options;
+        let bounds = Bounds3::EMPTY;
         let mut accel = Self {
             engine,
             precision,
+            preset,
             registers,
             scene,
             movers,
@@ -100,12 +103,18 @@ impl Accel {
             is_selective,
             bounds,
         };
+        accel.measure();
         accel.name_nodes();
         accel
     }
 
+    /// Sets the box around everything.
+    pub(crate) fn measure(&mut self) {
+        self.bounds = self.instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
+    }
+
     /// Gives each tree the first of its nodes' names.
-    fn name_nodes(&mut self) {
+    pub(crate) fn name_nodes(&mut self) {
         let own = self.geometries.iter_mut().filter_map(|geometry| geometry.forest.as_mut());
         let movers = self.movers.iter_mut().map(|movers| &mut movers.forest);
         let mut base = 0;

@@ -91,15 +91,15 @@ impl Items {
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     pub(crate) items: Items,
+    /// Boxes in object space around everything, and around what is finite, over all time.
+    pub(crate) bounds: [Bounds3; 2],
+    /// Moments for which its vertices are given; 1 for what keeps its shape.
+    pub(crate) keys: usize,
     /// Its own trees; `None` if its one instance lies in the scene's tree, or it is never placed.
     pub(crate) forest: Option<Forest>,
 }
 
 impl Geometry {
-    /// Box around everything in its own trees, over all time.
-    pub(crate) fn bounds(&self) -> Bounds3 {
-        self.forest.as_ref().map_or(Bounds3::EMPTY, |forest| forest.bounds)
-    }
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
         self.items.bytes() + self.forest.as_ref().map_or(0, Forest::bytes)

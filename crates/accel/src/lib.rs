@@ -17,6 +17,7 @@
 
 mod accel;
 mod build;
+mod cost;
 pub mod curve;
 mod error;
 mod geometry;
@@ -40,7 +41,7 @@ pub mod triangle;
 mod user;
 
 pub use accel::{Accel, NodeBounds};
-pub use build::{AccelBuilder, BuildOptions, Engine, Precision, Quads, Triangles, Visibility};
+pub use build::{AccelBuilder, BuildOptions, Engine, GeometryData, Precision, Quads, Triangles, Visibility};
 pub use error::BuildError;
 pub use geometry::GeometryId;
 pub use grow::Preset;

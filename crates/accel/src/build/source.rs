@@ -123,6 +123,11 @@ impl<'a> Source<'a> {
         matches!(self, Self::Keyed { .. })
     }
 
+    /// Moments for which vertices are given.
+    pub(crate) fn keys(&self) -> usize {
+        if let Self::Keyed { keys, .. } = self { keys.len() } else { 1 }
+    }
+
     /// Boxes around everything, and around what is finite.
     pub(crate) fn bounds(&self) -> [Bounds3; 2] {
         let around = |positions: &[Point3]| Bounds3::around(positions.iter().copied());

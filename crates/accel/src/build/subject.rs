@@ -24,6 +24,8 @@ pub(crate) enum Part<'a> {
         place: Option<Transform>,
         first_id: u32,
     },
+    /// In the tree's own space, by number.
+    Loose(Vec<(u32, [Point3; 3])>),
     /// Between two keys.
     Keyed {
         start: &'a Key<'a>,
@@ -40,13 +42,14 @@ impl Part<'_> {
         match self {
             Self::Triangles { indices, .. } | Self::Keyed { indices, .. } => indices.len(),
             Self::Quads { mesh, .. } => 2 * mesh.indices.len(),
+            Self::Loose(list) => list.len(),
             Self::Items(list) => list.len(),
             Self::Instances(list) => list.len(),
         }
     }
 
     /// The triangle numbered `at`, at both ends of the stretch.
-    fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
+    pub(super) fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
         let placed = |p: Point3, place: &Option<Transform>| place.as_ref().map_or(p, |m| m.point(p));
         match self {
             Self::Triangles { positions, indices, place, .. } => {
@@ -60,6 +63,7 @@ impl Part<'_> {
             Self::Keyed { start, end, indices } => {
                 Some([start, end].map(|key| indices[at].map(|i| key.1[i as usize])))
             }
+            Self::Loose(list) => Some([list[at].1; 2]),
             Self::Items(_) | Self::Instances(_) => None,
         }
     }
@@ -80,6 +84,7 @@ impl Part<'_> {
         match self {
             Self::Triangles { first_id, .. } | Self::Quads { first_id, .. } => first_id + at as u32,
             Self::Keyed { .. } => at as u32,
+            Self::Loose(list) => list[at].0,
             Self::Items(list) => list[at].0,
             Self::Instances(list) => list[at].0,
         }

@@ -3,7 +3,9 @@
 //! A node whose box has the centre `C` and half the diagonal `W` holds boxes with centres `c` and half diagonals `w`, and
 //! `|c - C| + |w| <= sqrt(2) |W|`, because the two vectors on the left add up to no more than `W` along each axis and so
 //! the sum of their squares is no more than `W^2`. If the ray stays further than that from `C`, it meets none of the
-//! spheres inside. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+//! spheres inside. Triangles that the builder cut are not inside and so are tested one by one. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+use std::cmp::Ordering;
+
 use durer_core::glam::DVec3;
 use durer_core::math::{Bounds3, Ray, Transform};
 
@@ -40,7 +42,7 @@ pub(crate) fn near_misses(
     mask: u32,
     radius_of: &dyn Fn(f32) -> f32,
 ) -> Vec<NearMiss> {
-    if largest_component(ray).is_none() || !(ray.t_min <= ray.t_max) {
+    if largest_component(ray).is_none() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
         return Vec::new();
     }
     let mut search = Search { accel, ray, mask, radius_of, found: Vec::new() };
@@ -93,6 +95,10 @@ impl Search<'_> {
         for &link in site.tree.unbounded.iter().chain(&site.tree.leaves) {
             self.leaf::<R>(site, link);
         }
+        // Nodes hold but parts of these.
+        for &(row, lane) in &site.tree.cut {
+            self.triangle::<R>(site, row, lane as usize);
+        }
         let mut open: Vec<Link> = site.tree.root.into_iter().collect();
         while let Some(link) = open.pop() {
             let Target::Node(row) = link.target() else {
@@ -113,11 +119,7 @@ impl Search<'_> {
         match link.target() {
             Target::Packet(row) => {
                 let packet: &R = site.tree.pages.get(row);
-                for lane in 0..packet.len() {
-                    let corners = packet.triangle(lane, site.moment);
-                    let placed = corners.map(|p| site.place.as_ref().map_or(p, |m| m.point(p)));
-                    self.primitive(site, packet.ids()[lane], Some(Bounds3::around(placed)));
-                }
+                (0..packet.len()).for_each(|lane| self.triangle::<R>(site, row, lane));
             }
             Target::Item(item) => {
                 let (instance, prim) = self.name(site, item);
@@ -137,6 +139,13 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
+    fn triangle<R: PacketRecord>(&mut self, site: &Site<'_>, row: u32, lane: usize) {
+        let packet: &R = site.tree.pages.get(row);
+        let corners = packet.triangle(lane, site.moment);
+        let placed = corners.map(|p| site.place.as_ref().map_or(p, |m| m.point(p)));
+        self.primitive(site, packet.ids()[lane], Some(Bounds3::around(placed)));
+    }
+
     /// Instance and primitive of a number in the tree.
     fn name(&self, site: &Site<'_>, id: u32) -> (u32, u32) {
         if site.instance == SCENE { self.accel.owners.of(id) } else { (site.instance, id) }

@@ -1,4 +1,5 @@
 //! What durer-accel promises, checked on seeded random scenes. `DURER_SLOW=1` runs 10^6 rays where noted.
+mod animation;
 mod bending;
 mod corpus;
 mod curves;

@@ -254,9 +254,14 @@ fn rays_that_can_hit_nothing_miss_nothing_nearly() {
     };
     assert_eq!(count(&good), 3 * 320 + 250 + 2 * 320 + 2 * 60, "all that have a finite box");
     let nan = Vector3::new(f32::NAN, 0.0, 1.0);
-    for bad in
-        [Ray { d: Vector3::ZERO, ..good }, Ray { d: nan, ..good }, Ray { t_min: 2.0, t_max: 1.0, ..good }]
-    {
+    let bad = [
+        Ray { d: Vector3::ZERO, ..good },
+        Ray { d: nan, ..good },
+        Ray { t_min: 2.0, t_max: 1.0, ..good },
+        Ray { t_min: f32::NAN, ..good },
+        Ray { t_max: f32::NAN, ..good },
+    ];
+    for bad in bad {
         assert_eq!(count(&bad), 0);
     }
 }
