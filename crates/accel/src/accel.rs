@@ -2,7 +2,7 @@
 use durer_core::math::{Bounds3, Transform};
 
 use crate::{
-    BuildOptions, BuildStats, Engine, GeometryId, Isa, Precision, Visibility,
+    BuildOptions, BuildStats, Engine, GeometryId, Isa, Precision, Preset, Visibility,
     build::Stretch,
     geometry::{Geometry, Items},
     isa::Registers,
@@ -59,6 +59,8 @@ pub struct NodeBounds {
 pub struct Accel {
     pub(crate) engine: Engine,
     pub(crate) precision: Precision,
+    /// For trees that are built anew.
+    pub(crate) preset: Preset,
     pub(crate) registers: Registers,
     /// The tree of everything that stands still and is used once, and of the instances that stand still.
     pub(crate) scene: Forest,
@@ -87,14 +89,15 @@ pub(crate) struct Parts {
 impl Accel {
     pub(crate) fn new(options: &BuildOptions, parts: Parts) -> Self {
         let Parts { registers, scene, movers, geometries, instances, owners } = parts;
-        let bounds = instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
         let any = |is: fn(&Visibility) -> bool| instances.iter().any(|i| is(&i.seen));
         let is_selective = any(|seen| seen.mask != u32::MAX);
         let (hides_backs, is_filtered) = (any(|seen| seen.hides_backs), any(|seen| seen.is_filtered));
-        let (engine, precision) = (options.engine, options.precision);
+        let BuildOptions { engine, precision, preset, .. } = *options;
+        let bounds = Bounds3::EMPTY;
         let mut accel = Self {
             engine,
             precision,
+            preset,
             registers,
             scene,
             movers,
@@ -106,12 +109,18 @@ impl Accel {
             is_filtered,
             bounds,
         };
+        accel.measure();
         accel.name_nodes();
         accel
     }
 
+    /// Sets the box around everything.
+    pub(crate) fn measure(&mut self) {
+        self.bounds = self.instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
+    }
+
     /// Gives each tree the first of its nodes' names.
-    fn name_nodes(&mut self) {
+    pub(crate) fn name_nodes(&mut self) {
         let own = self.geometries.iter_mut().filter_map(|geometry| geometry.forest.as_mut());
         let movers = self.movers.iter_mut().map(|movers| &mut movers.forest);
         let mut base = 0;
@@ -143,7 +152,7 @@ impl Accel {
         match self.items(instance) {
             Items::Quads(_) if prim % 2 == 1 => (prim / 2, 1.0 - u, 1.0 - v),
             Items::Quads(_) => (prim / 2, u, v),
-            Items::Triangles(_) | Items::Boxes(_) => (prim, u, v),
+            Items::Triangles(_) | Items::Boxes(_) | Items::Curves(..) | Items::Points(..) => (prim, u, v),
         }
     }
 
@@ -165,9 +174,14 @@ impl Accel {
             ..BuildStats::default()
         };
         for geometry in &self.geometries {
-            let (triangles, items) = geometry.counts();
-            stats.triangles += triangles;
-            stats.user_primitives += items;
+            let count = u64::from(geometry.items.len());
+            match &geometry.items {
+                // Of a quad both triangles are counted where they are stored.
+                Items::Triangles(_) | Items::Quads(_) => stats.triangles += count,
+                Items::Boxes(_) => stats.user_primitives += count,
+                Items::Curves(..) => stats.curve_segments += count,
+                Items::Points(..) => stats.points += count,
+            }
             stats.bytes += geometry.bytes() as u64;
         }
         let own = self.geometries.iter().filter_map(|g| Some(g.forest.as_ref()?.depth())).max();

@@ -1,7 +1,9 @@
 //! Why a scene cannot be built.
 use thiserror::Error;
 
-/// A mistake in what was handed to the builder; the builder is left as it was before the call.
+use crate::{curve::CurveError, point::PointError};
+
+/// A mistake in what was handed to the builder, or to an `Accel` that is changed; it is left as it was before the call.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A vertex has an infinite or NaN coordinate.
@@ -32,6 +34,12 @@ pub enum BuildError {
         /// Index into the list of boxes.
         prim: usize,
     },
+    /// Curves are not sound.
+    #[error(transparent)]
+    Curves(#[from] CurveError),
+    /// Points are not sound.
+    #[error(transparent)]
+    Points(#[from] PointError),
     /// A placement squashes space flat or holds a number that is not finite.
     #[error(
         "transform {key} of instance {instance} cannot be inverted; use finite coefficients and no zero scale"
@@ -65,6 +73,46 @@ pub enum BuildError {
     GeometryUnknown {
         /// The number inside the id.
         geometry: u32,
+    },
+    /// No such instance.
+    #[error("instance {instance} does not exist; give an index that placing a geometry returned")]
+    InstanceUnknown {
+        /// The index given.
+        instance: u32,
+    },
+    /// The instance has no tree of its own.
+    #[error(
+        "instance {instance} is part of the scene's own tree and cannot be placed anew; keep its geometry apart when building"
+    )]
+    InstanceMerged {
+        /// The index given.
+        instance: u32,
+    },
+    /// New data of a geometry are of another kind.
+    #[error(
+        "geometry {geometry} was built of {built}, but the new data are {given}; give data of the same kind"
+    )]
+    KindChanged {
+        /// The number inside the id.
+        geometry: u32,
+        /// What it is made of.
+        built: &'static str,
+        /// What it was to be made of.
+        given: &'static str,
+    },
+    /// New data of a geometry have another number of primitives or keys.
+    #[error(
+        "geometry {geometry} was built of {built} {what}, but the new data have {given}; give as many or build anew"
+    )]
+    CountChanged {
+        /// The number inside the id.
+        geometry: u32,
+        /// Of what.
+        what: &'static str,
+        /// How many it has.
+        built: usize,
+        /// How many it was to have.
+        given: usize,
     },
     /// The processor lacks what was asked for.
     #[error("this processor has no {isa} instructions; choose others, or none to take the best there are")]

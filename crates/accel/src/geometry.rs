@@ -1,7 +1,15 @@
 //! What a scene is made of once it is built: geometries, each with its trees unless the scene's own tree holds it.
-use durer_core::math::Bounds3;
+use std::sync::Arc;
 
-use crate::{slab::grown, tree::Forest};
+use durer_core::math::Bounds3;
+use rayon::prelude::*;
+
+use crate::{
+    curve::Curves,
+    point::Points,
+    slab::{extent, grown},
+    tree::Forest,
+};
 
 /// Names a geometry of one builder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,40 +31,59 @@ pub(crate) enum Items {
     Quads(u32),
     /// Shapes of the caller.
     Boxes(Vec<OwnBox>),
+    /// Segments of curves, with their boxes.
+    Curves(Arc<Curves>, Vec<OwnBox>),
+    /// Points, with their boxes.
+    Points(Arc<Points>, Vec<OwnBox>),
 }
 
 /// A shape's box, grown once by the slack of box tests; `None` if it is infinite and excludes nothing.
 pub(crate) type OwnBox = Option<Bounds3>;
 
-impl Items {
-    /// Boxes as the caller gives them.
-    pub(crate) fn boxes(given: &[Bounds3]) -> Self {
-        let own = |b: &Bounds3| b.is_finite().then(|| grown(b, crate::slab::extent(b)));
-        Self::Boxes(given.iter().map(own).collect())
-    }
+/// Boxes as they are given, made ready for tests.
+pub(crate) fn own_boxes(given: &[Bounds3]) -> Vec<OwnBox> {
+    given.par_iter().map(|b| b.is_finite().then(|| grown(b, extent(b)))).collect()
+}
 
+impl Items {
     /// How many a tree counts: a quad is two.
     pub(crate) fn len(&self) -> u32 {
         match self {
             Self::Triangles(count) => *count,
             Self::Quads(count) => 2 * count,
-            Self::Boxes(boxes) => boxes.len() as u32,
+            Self::Boxes(_) | Self::Curves(..) | Self::Points(..) => self.boxes().len() as u32,
+        }
+    }
+
+    /// The boxes of shapes; none of triangles.
+    pub(crate) fn boxes(&self) -> &[OwnBox] {
+        match self {
+            Self::Boxes(boxes) | Self::Curves(_, boxes) | Self::Points(_, boxes) => boxes,
+            Self::Triangles(_) | Self::Quads(_) => &[],
         }
     }
 
     /// The box of a shape.
     pub(crate) fn own_box(&self, prim: u32) -> OwnBox {
-        match self {
-            Self::Boxes(boxes) => boxes[prim as usize],
-            Self::Triangles(_) | Self::Quads(_) => None,
-        }
+        self.boxes().get(prim as usize).copied().flatten()
     }
 
     fn bytes(&self) -> usize {
-        match self {
-            Self::Boxes(boxes) => size_of_val(boxes.as_slice()),
-            Self::Triangles(_) | Self::Quads(_) => 0,
-        }
+        let shapes = match self {
+            Self::Triangles(_) | Self::Quads(_) | Self::Boxes(_) => 0,
+            Self::Curves(c, _) => {
+                size_of_val(c.points.as_slice())
+                    + size_of_val(c.radii.as_slice())
+                    + size_of_val(c.normals.as_slice())
+                    + size_of_val(c.segments.as_slice())
+            }
+            Self::Points(p, _) => {
+                size_of_val(p.centers.as_slice())
+                    + size_of_val(p.radii.as_slice())
+                    + size_of_val(p.normals.as_slice())
+            }
+        };
+        shapes + size_of_val(self.boxes())
     }
 }
 
@@ -64,22 +91,15 @@ impl Items {
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     pub(crate) items: Items,
+    /// Boxes in object space around everything, and around what is finite, over all time.
+    pub(crate) bounds: [Bounds3; 2],
+    /// Moments for which its vertices are given; 1 for what keeps its shape.
+    pub(crate) keys: usize,
     /// Its own trees; `None` if its one instance lies in the scene's tree, or it is never placed.
     pub(crate) forest: Option<Forest>,
 }
 
 impl Geometry {
-    /// Triangles and shapes held.
-    pub(crate) fn counts(&self) -> (u64, u64) {
-        match &self.items {
-            Items::Triangles(count) | Items::Quads(count) => (u64::from(*count), 0),
-            Items::Boxes(boxes) => (0, boxes.len() as u64),
-        }
-    }
-    /// Box around everything in its own trees, over all time.
-    pub(crate) fn bounds(&self) -> Bounds3 {
-        self.forest.as_ref().map_or(Bounds3::EMPTY, |forest| forest.bounds)
-    }
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
         self.items.bytes() + self.forest.as_ref().map_or(0, Forest::bytes)

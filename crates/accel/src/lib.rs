@@ -1,7 +1,8 @@
 //! Where does a ray first meet the scene? A ray-intersection kernel, worth using alone.
 //!
 //! Two levels of bounding volume hierarchies: one tree over the triangles or boxes of each geometry, one tree over
-//! the placed instances. Shapes that are not triangles are boxes with a callback ([`UserGeometry`]). A second engine,
+//! the placed instances. Curves ([`curve`]) and points ([`point`]) are built in; all other shapes are boxes with a callback
+//! ([`UserGeometry`]). A second engine,
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
 //!
 //! # The contract of a hit
@@ -16,6 +17,7 @@
 
 mod accel;
 mod build;
+mod cost;
 pub mod curve;
 mod error;
 mod geometry;
@@ -39,7 +41,7 @@ pub mod triangle;
 mod user;
 
 pub use accel::{Accel, NodeBounds};
-pub use build::{AccelBuilder, BuildOptions, Engine, Precision, Quads, Triangles, Visibility};
+pub use build::{AccelBuilder, BuildOptions, Engine, GeometryData, Precision, Quads, Triangles, Visibility};
 pub use error::BuildError;
 pub use geometry::GeometryId;
 pub use grow::Preset;
@@ -49,4 +51,5 @@ pub use placement::Placement;
 pub use probe::{NoTraversalProbe, TraversalCounts, TraversalProbe};
 pub use query::Query;
 pub use stats::BuildStats;
+pub use traverse::NearMiss;
 pub use user::{NoUserGeometry, UserGeometry};

@@ -1,4 +1,5 @@
 //! Who is who in the scene's own tree: numbers of primitives, instance after instance.
+use std::ops::Range;
 
 /// Ranges of numbers and the instances they belong to.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +39,17 @@ impl Owners {
         }
     }
 
+    /// The numbers of an instance's primitives; `None` if they lie in a tree of its own.
+    pub(crate) fn range_of(&self, instance: u32) -> Option<Range<u32>> {
+        let at = self.instances.binary_search(&instance).ok()?;
+        Some(self.starts[at]..self.starts.get(at + 1).copied().unwrap_or(self.total))
+    }
+
+    /// All instances with their numbers.
+    pub(crate) fn ranges(&self) -> impl Iterator<Item = (u32, Range<u32>)> + '_ {
+        self.instances.iter().filter_map(|&instance| Some((instance, self.range_of(instance)?)))
+    }
+
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.instances.as_slice())
     }
@@ -55,5 +67,8 @@ mod tests {
         }
         let found: Vec<_> = (0..owners.total()).map(|id| owners.of(id)).collect();
         assert_eq!(found, [(2, 0), (2, 1), (2, 2), (7, 0), (9, 0), (9, 1), (9, 2), (9, 3), (9, 4)]);
+        let ranges: Vec<_> = owners.ranges().collect();
+        assert_eq!(ranges, [(2, 0..3), (3, 3..3), (7, 3..4), (9, 4..9)]);
+        assert_eq!((owners.range_of(7), owners.range_of(8)), (Some(3..4), None));
     }
 }

@@ -65,7 +65,7 @@ fn segments(a: &DAffine3, b: &DAffine3) -> u32 {
 }
 
 /// A placement checked and made ready for rays.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Pose {
     Identity,
     Still(Transform),
@@ -97,6 +97,11 @@ impl Pose {
                 }
             }
         }
+    }
+
+    /// Where it stands still; `None` for the identity and what moves.
+    pub(crate) fn place(&self) -> Option<Transform> {
+        if let Self::Still(m) = self { Some(*m) } else { None }
     }
 
     /// `render_from_object` at `time` seconds; `None` stands for the identity.

@@ -2,11 +2,11 @@
 use durer_core::math::{Ray, Vector3};
 
 use crate::{
-    Accel, Engine, Hit, NoTraversalProbe, NoUserGeometry, Precision, TraversalProbe, UserGeometry,
+    Accel, Engine, Hit, NearMiss, NoTraversalProbe, NoUserGeometry, Precision, TraversalProbe, UserGeometry,
     isa::Registers,
     layout::{MovingPacket, Packet, PacketRecord},
     probe::{Sink, Told, Unwatched, Watch},
-    traverse::{Best, Cx, Kernel, Level, Place, SCENE, exhaustive_blocked, exhaustive_nearest},
+    traverse::{Best, Cx, Kernel, Level, Place, SCENE, exhaustive_blocked, exhaustive_nearest, near_misses},
     tree::{Forest, Trees},
     user::Callback,
 };
@@ -34,6 +34,11 @@ impl Accel {
         self.query(ray).any()
     }
 
+    /// [`Query::near_misses`] of all instances.
+    pub fn near_misses(&self, ray: &Ray, radius_of: impl Fn(f32) -> f32, visit: impl FnMut(NearMiss)) {
+        self.query(ray).near_misses(radius_of, visit);
+    }
+
     /// A query with more to say: shapes of the caller, masks, backs, a probe.
     #[inline]
     pub fn query<'q>(&'q self, ray: &'q Ray) -> Query<'q> {
@@ -42,7 +47,7 @@ impl Accel {
 }
 
 impl<'q, U: UserGeometry, P: TraversalProbe> Query<'q, U, P> {
-    /// `user` answers for the boxes of `AccelBuilder::user`, and for holes.
+    /// `user` answers for the boxes of `AccelBuilder::user`, and for holes, those in curves and points too.
     #[inline]
     pub fn user<V: UserGeometry>(self, user: &'q V) -> Query<'q, V, P> {
         let Self { accel, ray, told, mask, culls, .. } = self;
@@ -79,6 +84,28 @@ impl<'q, U: UserGeometry, P: TraversalProbe> Query<'q, U, P> {
             }
             _ => cx.closest(self.ray, &mut Unwatched),
         }
+    }
+
+    /// Visits every primitive whose enlarged bounding sphere the ray meets, hit or not, once and in the order of
+    /// `(instance, prim)`. So antialiasing learns what hides between the rays of neighbouring samples: an object much
+    /// smaller than a pixel is hit by none of them, but misses one by less than the pixel's size there (Whitted 1980,
+    /// "An Improved Illumination Model for Shaded Display", section on antialiasing).
+    ///
+    /// The sphere of a primitive is that of its box in render space at the ray's time: around its centre, with half its
+    /// diagonal as radius. Of triangles it is the box of their placed vertices, of other shapes the box around the
+    /// corners of their placed box, which is a few millionths larger than given. A quad counts as its two triangles; the one whose centre is nearer is told. What has an
+    /// infinite box is never visited: it cannot be lost.
+    ///
+    /// The sphere is enlarged by `radius_of(t)`, in units of render space, 0 or more, where `t` is the parameter at which the
+    /// ray comes nearest to the centre, clamped to `[t_min, t_max]`. `radius_of` must not fall as `t` rises: of what is far
+    /// it is asked once for all, at the far end. For an eye ray `t * s` will do, where `s` is the distance of samples on an
+    /// image plane at `t = 1`. It may be asked up to `f32::MAX`.
+    ///
+    /// The mask counts; backs, filters and probes do not. Both engines visit the same. A ray that can hit nothing visits
+    /// nothing. Not made for speed: it allocates, costs several times what [`Query::closest`] does, and more where
+    /// `Preset::High` has cut many triangles, which are tested one by one.
+    pub fn near_misses(self, radius_of: impl Fn(f32) -> f32, mut visit: impl FnMut(NearMiss)) {
+        near_misses(self.accel, self.ray, self.mask, &radius_of).into_iter().for_each(&mut visit);
     }
 
     /// See [`Accel::any`].
@@ -188,16 +215,16 @@ impl<'a> Cx<'a> {
             return None;
         }
         let (instance, prim) = self.primitive(place.instance, place.id);
-        let n_g = self.normal(ray, place, instance);
+        let n_g = self.normal(ray, place, instance, prim);
         let (prim, u, v) = self.accel.called(instance, prim, best.u, best.v);
         Some(Hit { t: best.t, instance, prim, u, v, n_g })
     }
 
-    /// The normal of the hit triangle in its instance's object space; zero for shapes.
+    /// The normal of what is hit in its instance's object space.
     #[inline(always)]
-    fn normal(&self, ray: &Ray, place: &Place, instance: u32) -> Vector3 {
+    fn normal(&self, ray: &Ray, place: &Place, instance: u32, prim: u32) -> Vector3 {
         if place.row == Place::NO_PACKET {
-            return Vector3::ZERO;
+            return self.shape_normal(instance, prim, ray);
         }
         let owner = &self.accel.instances[instance as usize];
         let of = |[a, b, c]: [durer_core::math::Point3; 3]| (b - a).cross(c - a);

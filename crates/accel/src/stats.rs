@@ -3,10 +3,14 @@
 /// Size and shape of an `Accel`. No times: this crate reads no clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BuildStats {
-    /// Triangles stored, each geometry once.
+    /// Triangles stored, each geometry once; a quad is two.
     pub triangles: u64,
     /// Boxes of user geometry stored, each geometry once.
     pub user_primitives: u64,
+    /// Segments of curves stored, each geometry once.
+    pub curve_segments: u64,
+    /// Points stored, each geometry once.
+    pub points: u64,
     /// Placed instances.
     pub instances: u64,
     /// Nodes of all trees; 0 for brute force.

@@ -20,6 +20,8 @@ pub(crate) struct Tree {
     pub(crate) unbounded: Vec<Link>,
     /// All leaves, for brute force only.
     pub(crate) leaves: Vec<Link>,
+    /// Rows and lanes of triangles that lie in several leaves, each in a box around a part only; each once.
+    pub(crate) cut: Vec<(u32, u32)>,
     /// Box around what has a finite one.
     pub(crate) bounds: Bounds3,
     /// Longest way from the root to a leaf, in edges.
@@ -38,15 +40,22 @@ impl Tree {
             node_rows: 1,
             unbounded: Vec::new(),
             leaves: Vec::new(),
+            cut: Vec::new(),
             bounds: Bounds3::EMPTY,
             depth: 0,
             base: 0,
         }
     }
 
+    /// Rows of nodes and packets.
+    pub(crate) fn rows(&self) -> usize {
+        self.pages.bytes() / ROW
+    }
+
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
-        self.pages.bytes() + size_of_val(self.unbounded.as_slice()) + size_of_val(self.leaves.as_slice())
+        let links = size_of_val(self.unbounded.as_slice()) + size_of_val(self.leaves.as_slice());
+        self.pages.bytes() + links + size_of_val(self.cut.as_slice())
     }
 
     /// The name of the node at `row`, unique in the `Accel`.
@@ -57,7 +66,7 @@ impl Tree {
     /// The box around the lanes of a node, and how many of them are leaves. `index` counts the tree's nodes.
     pub(crate) fn node_bounds<N: NodeWriter>(&self, index: u32) -> (Bounds3, u32) {
         let node: &N = self.pages.get(index * self.node_rows);
-        let lanes = (0..N::WIDTH).filter_map(|lane| node.lane(lane));
+        let lanes = (0..N::WIDTH).filter_map(|lane| node.lane(lane, 0.0));
         lanes.fold((Bounds3::EMPTY, 0), |(all, leaves), ([min, max], link)| {
             let leaf = !matches!(Link(link).target(), Target::Node(_));
             (all.union(Bounds3 { min: min.into(), max: max.into() }), leaves + u32::from(leaf))

@@ -106,7 +106,28 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
     }
     let bounds = around[0][0].union(around[0][1]);
     let root = Some(Link::new(Target::Node(0)));
-    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, bounds, depth: depth + 1, ..Tree::empty() })
+    let cut = cut(subject, wide, &rows);
+    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, cut, bounds, depth: depth + 1, ..Tree::empty() })
+}
+
+/// Rows and lanes of the triangles that lie in several leaves; `rows` are those of packets, by child.
+fn cut(subject: &Subject<'_>, wide: &WideTree, rows: &[u32]) -> Vec<(u32, u32)> {
+    if wide.order.len() == subject.len() {
+        return Vec::new();
+    }
+    let mut leaves = vec![0u32; subject.len()];
+    wide.order.iter().for_each(|&prim| leaves[prim as usize] += 1);
+    let mut found = Vec::new();
+    for (child, &row) in wide.children.iter().zip(rows) {
+        // `first` of an inner node is none of `order`.
+        let first = if child.count > 0 { child.first as usize } else { 0 };
+        for (lane, &prim) in (0..).zip(&wide.order[first..first + child.count as usize]) {
+            if std::mem::take(&mut leaves[prim as usize]) > 1 {
+                found.push((row, lane));
+            }
+        }
+    }
+    found
 }
 
 /// The box of a leaf is that of its fragments, with the slack of the whole primitives.

@@ -1,8 +1,12 @@
 //! From geometries and placements to an `Accel`.
+mod animate;
 mod assemble;
+mod data;
 mod emit;
+mod maker;
 mod moving;
 mod options;
+mod refit;
 mod source;
 mod subject;
 
@@ -13,10 +17,13 @@ use durer_core::math::{Bounds3, Point3};
 use crate::{
     Accel, BuildError, GeometryId, Placement,
     accel::Instance,
+    curve::Curves,
     placement::Pose,
+    point::Points,
     slab::{extent, grown},
 };
 
+pub use data::GeometryData;
 pub use options::{BuildOptions, Engine, Precision, Visibility};
 use source::Source;
 pub use source::{Quads, Triangles};
@@ -29,13 +36,16 @@ pub struct AccelBuilder<'a> {
     sources: Vec<Source<'a>>,
     /// Boxes around everything in each, and around what is finite there: asked for by every instance.
     bounds: Vec<[Bounds3; 2]>,
+    /// Which of them keep trees of their own.
+    apart: Vec<bool>,
     instances: Vec<Instance>,
 }
 
 impl<'a> AccelBuilder<'a> {
     /// An empty scene.
     pub fn new(options: BuildOptions) -> Self {
-        Self { options, sources: Vec::new(), bounds: Vec::new(), instances: Vec::new() }
+        let (sources, bounds, apart) = (Vec::new(), Vec::new(), Vec::new());
+        Self { options, sources, bounds, apart, instances: Vec::new() }
     }
 
     /// Adds a mesh.
@@ -89,11 +99,43 @@ impl<'a> AccelBuilder<'a> {
         self.add(Source::boxes(bounds)?)
     }
 
+    /// Adds segments of curves, each a primitive. Hits have the `u` and `v` of [`CurveHit`](crate::curve::CurveHit) and its
+    /// unit normal, in object space; a curve under a transform that stretches it is stretched with its radii. They lie
+    /// in the space of the instance like shapes of the caller, but need no `UserGeometry`.
+    ///
+    /// # Errors
+    /// [`BuildError::Curves`] if [`Curves::check`] finds a mistake; too many segments.
+    pub fn curves(&mut self, curves: Curves) -> Result<GeometryId, BuildError> {
+        self.add(Source::curves(curves)?)
+    }
+
+    /// Adds points, each a primitive: spheres and discs. `u` and `v` of a hit are 0, its normal is that of
+    /// [`PointHit`](crate::point::PointHit), in object space.
+    ///
+    /// # Errors
+    /// [`BuildError::Points`] if [`Points::check`] finds a mistake; too many points.
+    pub fn points(&mut self, points: Points) -> Result<GeometryId, BuildError> {
+        self.add(Source::points(points)?)
+    }
+
     fn add(&mut self, source: Source<'a>) -> Result<GeometryId, BuildError> {
         let id = BuildError::check_count(self.sources.len(), "geometries")?;
         self.bounds.push(source.bounds());
         self.sources.push(source);
+        self.apart.push(false);
         Ok(GeometryId(id))
+    }
+
+    /// Gives a geometry a tree of its own in any case, so that `Accel::set_placement` can move its instances. Otherwise
+    /// what is placed once and stands still lies in the scene's own tree, which makes rays faster. Hits are the same up to
+    /// rounding.
+    ///
+    /// # Errors
+    /// A geometry of another builder.
+    pub fn keep_apart(&mut self, geometry: GeometryId) -> Result<(), BuildError> {
+        let unknown = BuildError::GeometryUnknown { geometry: geometry.0 };
+        *self.apart.get_mut(geometry.index()).ok_or(unknown)? = true;
+        Ok(())
     }
 
     /// Places a geometry where all rays see it; returns the instance's index. A geometry may be placed any number of
@@ -130,16 +172,30 @@ impl<'a> AccelBuilder<'a> {
     /// # Errors
     /// Instructions that this processor lacks, or a tree larger than links can reach.
     pub fn build(self) -> Result<Accel, BuildError> {
-        assemble::assemble(&self.options, &self.sources, self.instances)
+        assemble::assemble(&self.options, &self.sources, &self.apart, self.instances)
     }
 }
 
 impl Instance {
-    fn new(geometry: GeometryId, pose: Pose, [all, finite]: [Bounds3; 2], seen: Visibility) -> Self {
-        let bounds = pose.bounds(&all);
-        let finite = Some(pose.bounds(&finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
-        let is_bounded = bounds.is_finite();
-        let bounds = if is_bounded { grown(&bounds, extent(&bounds)) } else { bounds };
-        Self { geometry, mover: Self::STANDS, seen, is_bounded, bounds, finite, pose }
+    fn new(geometry: GeometryId, pose: Pose, bounds: [Bounds3; 2], seen: Visibility) -> Self {
+        let empty = Bounds3::EMPTY;
+        let mover = Self::STANDS;
+        let mut instance =
+            Self { geometry, mover, seen, is_bounded: false, bounds: empty, finite: empty, pose };
+        instance.measure(bounds);
+        instance
+    }
+
+    /// Sets its boxes: `all` and `finite` are those of its geometry in object space.
+    fn measure(&mut self, [all, finite]: [Bounds3; 2]) {
+        let bounds = self.pose.bounds(&all);
+        self.finite = Some(self.pose.bounds(&finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
+        self.is_bounded = bounds.is_finite();
+        self.bounds = if self.is_bounded { grown(&bounds, extent(&bounds)) } else { bounds };
+    }
+
+    /// Whether it is somewhere else, or larger or smaller.
+    fn differs(&self, other: &Self) -> bool {
+        self.pose != other.pose || self.bounds != other.bounds || self.finite != other.finite
     }
 }

@@ -1,9 +1,15 @@
 //! Geometries as they are handed in.
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
 use durer_core::math::{Bounds3, Point3};
+use rayon::prelude::*;
 
-use crate::{BuildError, geometry::Items};
+use crate::{
+    BuildError,
+    curve::Curves,
+    geometry::{Items, own_boxes},
+    point::Points,
+};
 
 /// A triangle mesh in object space. It may be empty; triangles without area are never hit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +46,10 @@ pub(crate) enum Source<'a> {
         keys: Vec<Key<'a>>,
     },
     Boxes(Vec<Bounds3>),
+    /// With a box around each segment.
+    Curves(Arc<Curves>, Vec<Bounds3>),
+    /// With a box around each point.
+    Points(Arc<Points>, Vec<Bounds3>),
 }
 
 impl<'a> Source<'a> {
@@ -81,6 +91,20 @@ impl<'a> Source<'a> {
         }
     }
 
+    pub(crate) fn curves(curves: Curves) -> Result<Self, BuildError> {
+        let count = BuildError::check_count(curves.segments.len(), "curve segments")?;
+        curves.check()?;
+        let bounds = (0..count).into_par_iter().map(|segment| curves.bounds(segment)).collect();
+        Ok(Self::Curves(Arc::new(curves), bounds))
+    }
+
+    pub(crate) fn points(points: Points) -> Result<Self, BuildError> {
+        let count = BuildError::check_count(points.centers.len(), "points")?;
+        points.check()?;
+        let bounds = (0..count).into_par_iter().map(|prim| points.bounds(prim)).collect();
+        Ok(Self::Points(Arc::new(points), bounds))
+    }
+
     /// What stays of it beside the leaves.
     pub(crate) fn items(&self) -> Items {
         match self {
@@ -88,13 +112,20 @@ impl<'a> Source<'a> {
                 Items::Triangles(indices.len() as u32)
             }
             Self::Quads(mesh) => Items::Quads(mesh.indices.len() as u32),
-            Self::Boxes(boxes) => Items::boxes(boxes),
+            Self::Boxes(boxes) => Items::Boxes(own_boxes(boxes)),
+            Self::Curves(curves, bounds) => Items::Curves(curves.clone(), own_boxes(bounds)),
+            Self::Points(points, bounds) => Items::Points(points.clone(), own_boxes(bounds)),
         }
     }
 
     /// Whether its shape depends on time.
     pub(crate) fn moves(&self) -> bool {
         matches!(self, Self::Keyed { .. })
+    }
+
+    /// Moments for which vertices are given.
+    pub(crate) fn keys(&self) -> usize {
+        if let Self::Keyed { keys, .. } = self { keys.len() } else { 1 }
     }
 
     /// Boxes around everything, and around what is finite.
@@ -109,7 +140,7 @@ impl<'a> Source<'a> {
             Self::Keyed { keys, .. } => {
                 keys.iter().fold(Bounds3::EMPTY, |all, (_, positions)| all.union(around(positions)))
             }
-            Self::Boxes(boxes) => {
+            Self::Boxes(boxes) | Self::Curves(_, boxes) | Self::Points(_, boxes) => {
                 let union = |all: Bounds3, b: &Bounds3| all.union(*b);
                 let finite = boxes.iter().filter(|b| b.is_finite()).fold(Bounds3::EMPTY, union);
                 return [boxes.iter().fold(Bounds3::EMPTY, union), finite];

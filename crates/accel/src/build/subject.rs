@@ -24,6 +24,8 @@ pub(crate) enum Part<'a> {
         place: Option<Transform>,
         first_id: u32,
     },
+    /// In the tree's own space, by number.
+    Loose(Vec<(u32, [Point3; 3])>),
     /// Between two keys.
     Keyed {
         start: &'a Key<'a>,
@@ -40,6 +42,7 @@ impl Part<'_> {
         match self {
             Self::Triangles { indices, .. } | Self::Keyed { indices, .. } => indices.len(),
             Self::Quads { mesh, .. } => 2 * mesh.indices.len(),
+            Self::Loose(list) => list.len(),
             Self::Items(list) => list.len(),
             Self::Instances(list) => list.len(),
         }
@@ -61,6 +64,7 @@ impl Part<'_> {
                 let key = if end == 0 { start } else { last };
                 (&*key.1, indices[at], &None)
             }
+            Self::Loose(list) => return Some(list[at].1),
             Self::Items(_) | Self::Instances(_) => return None,
         };
         let (a, b, c) = (positions[a as usize], positions[b as usize], positions[c as usize]);
@@ -72,7 +76,7 @@ impl Part<'_> {
 
     /// The triangle at both ends of the stretch.
     #[inline]
-    fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
+    pub(super) fn triangle(&self, at: usize) -> Option<[[Point3; 3]; 2]> {
         let start = self.corners(at, 0)?;
         match self {
             Self::Keyed { .. } => Some([start, self.corners(at, 1)?]),
@@ -88,7 +92,7 @@ impl Part<'_> {
             Self::Items(list) => [list[at].1; 2],
             Self::Instances(list) => list[at].1,
             Self::Keyed { .. } => [end(0), end(1)],
-            Self::Triangles { .. } | Self::Quads { .. } => [end(0); 2],
+            Self::Triangles { .. } | Self::Quads { .. } | Self::Loose(_) => [end(0); 2],
         }
     }
 
@@ -97,6 +101,7 @@ impl Part<'_> {
         match self {
             Self::Triangles { first_id, .. } | Self::Quads { first_id, .. } => first_id + at as u32,
             Self::Keyed { .. } => at as u32,
+            Self::Loose(list) => list[at].0,
             Self::Items(list) => list[at].0,
             Self::Instances(list) => list[at].0,
         }

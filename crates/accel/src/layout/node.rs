@@ -64,8 +64,8 @@ pub(crate) trait NodeWriter: Record + Send + Sync {
     const EMPTY: Self;
     /// Puts a box around something into a lane.
     fn set(&mut self, lane: usize, boxes: &[[[f32; 3]; 2]; 2], link: u32);
-    /// The box of a lane at the start of the stretch, and what it holds; `None` for an empty lane.
-    fn lane(&self, lane: usize) -> Option<([[f32; 3]; 2], u32)>;
+    /// The box of a lane at the fraction `u` of the stretch, and what it holds; `None` for an empty lane.
+    fn lane(&self, lane: usize, u: f32) -> Option<([[f32; 3]; 2], u32)>;
 }
 
 impl<const N: usize> NodeWriter for Node<N>
@@ -82,7 +82,7 @@ where
         }
         self.links[lane] = link;
     }
-    fn lane(&self, lane: usize) -> Option<([[f32; 3]; 2], u32)> {
+    fn lane(&self, lane: usize, _: f32) -> Option<([[f32; 3]; 2], u32)> {
         let side = |s: usize| std::array::from_fn(|axis| self.planes[axis][s][lane]);
         let filled = lane < N && self.planes[0][0][lane] <= self.planes[0][1][lane];
         filled.then(|| ([side(0), side(1)], self.links[lane]))
@@ -109,8 +109,9 @@ where
         }
         self.links[lane] = link;
     }
-    fn lane(&self, lane: usize) -> Option<([[f32; 3]; 2], u32)> {
-        let side = |s: usize| std::array::from_fn(|axis| self.planes[axis][s][lane]);
+    fn lane(&self, lane: usize, u: f32) -> Option<([[f32; 3]; 2], u32)> {
+        let plane = |axis: usize, s: usize| self.planes[axis][s][lane] + self.ways[axis][s][lane] * u;
+        let side = |s: usize| std::array::from_fn(|axis| plane(axis, s));
         let filled = lane < N && self.planes[0][0][lane] <= self.planes[0][1][lane];
         filled.then(|| ([side(0), side(1)], self.links[lane]))
     }
@@ -130,7 +131,7 @@ mod tests {
     fn lanes_keep_their_boxes_and_empty_ones_have_none() {
         let mut node = Node::<8>::EMPTY;
         node.set(3, &[[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], [[0.0, 2.0, 3.0], [4.0, 7.0, 6.0]]], 9);
-        assert_eq!(node.lane(3), Some(([[0.0, 2.0, 3.0], [4.0, 7.0, 6.0]], 9)));
-        assert_eq!((node.lane(2), node.lane(8)), (None, None));
+        assert_eq!(node.lane(3, 0.0), Some(([[0.0, 2.0, 3.0], [4.0, 7.0, 6.0]], 9)));
+        assert_eq!((node.lane(2, 0.0), node.lane(8, 0.0)), (None, None));
     }
 }

@@ -191,7 +191,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     fn item_nearest(&mut self, item: u32, best: &mut Best) {
         let Some((instance, prim, window)) = self.item(item, best.t) else { return };
         let ray = self.level.ray;
-        let found = self.cx.callback.intersect(instance, prim, ray, best.t);
+        let found = self.cx.meet(instance, prim, ray, best.t);
         let Some(PrimitiveHit { t, u, v }) = found else { return };
         let Some(t) = self.admit(t, window, best.t) else { return };
         let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
@@ -206,10 +206,10 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         let Some((instance, prim, window)) = self.item(item, t_max) else { return false };
         let ray = self.level.ray;
         if !self.cx.filters {
-            let blocks = self.cx.callback.occludes(instance, prim, ray, t_max);
+            let blocks = self.cx.is_met(instance, prim, ray, t_max);
             return blocks && window.admits(ray.t_min, t_max) && self.level.floor <= t_max;
         }
-        let found = self.cx.callback.intersect(instance, prim, ray, t_max);
+        let found = self.cx.meet(instance, prim, ray, t_max);
         let Some(PrimitiveHit { t, u, v }) = found else { return false };
         let Some(t) = self.admit(t, window, t_max) else { return false };
         let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };

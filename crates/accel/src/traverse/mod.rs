@@ -7,7 +7,9 @@ mod boxes;
 mod exhaustive;
 mod kernel;
 mod leaf;
+mod near_miss;
 mod nearest;
+mod shape;
 
 use durer_core::math::{Ray, Segment};
 
@@ -23,6 +25,8 @@ use crate::{
 pub(crate) use blocked::blocked;
 pub(crate) use exhaustive::{exhaustive_blocked, exhaustive_nearest};
 pub(crate) use kernel::Kernel;
+pub use near_miss::NearMiss;
+pub(crate) use near_miss::near_misses;
 pub(crate) use nearest::nearest;
 
 /// What a query asks, and of what.
