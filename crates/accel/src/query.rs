@@ -134,7 +134,8 @@ macro_rules! dispatch {
 impl<'a> Cx<'a> {
     #[inline]
     fn new(accel: &'a Accel, callback: &'a dyn Callback, mask: u32, culls: bool, filters: bool) -> Self {
-        let checks = filters || culls || accel.is_selective;
+        // All see rays with some bit in their mask, none those without any.
+        let checks = filters || culls || accel.is_selective || mask == 0;
         let exhaustive = accel.engine == Engine::BruteForce;
         Self { accel, callback, mask, culls, filters, checks, exhaustive }
     }
@@ -205,8 +206,8 @@ impl<'a> Cx<'a> {
             let n = of(self.accel.scene.trees()[0].pages.get::<Packet>(place.row).triangle(lane, 0.0));
             return match owner.pose.at(ray.time) {
                 None => n,
-                // The tree holds the mesh where it is placed.
-                Some(m) => m.inverse().normal(n.into()).into(),
+                // The tree holds the mesh where it is placed, and turned round if that is mirrored.
+                Some(m) => m.inverse().normal(if owner.mirrors { -n } else { n }.into()).into(),
             };
         }
         let Some(forest) = &self.accel.geometries[owner.geometry.index()].forest else {
