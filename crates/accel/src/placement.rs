@@ -107,6 +107,10 @@ impl Pose {
             Self::Moving(keys) => Some(Transform::from_f64(&interpolate(keys, time))),
         }
     }
+    /// Whether it stands still and left and right change places.
+    pub(crate) fn mirrors(&self) -> bool {
+        matches!(self, Self::Still(m) if m.swaps_handedness())
+    }
     /// `ray` in object space; `None` stands for the identity.
     pub(crate) fn object_ray(&self, ray: &Ray) -> Option<Ray> {
         match self {

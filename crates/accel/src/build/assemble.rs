@@ -161,6 +161,10 @@ pub(super) fn assemble(
     for (instance, merged) in instances.iter().zip(&merged) {
         is_own[instance.geometry.index()] |= !merged;
     }
+    for (instance, _) in instances.iter_mut().zip(&merged).filter(|(i, merged)| **merged && i.mirrors) {
+        // In the scene's own tree its triangles are turned round.
+        instance.seen.is_reversed = !instance.seen.is_reversed;
+    }
     let geometries = sources.par_iter().zip(&is_own).map(|(source, &own)| {
         let items = source.items();
         let forest = if own { Some(maker.forest(source, &items)?) } else { None };

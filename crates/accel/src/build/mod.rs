@@ -137,6 +137,7 @@ impl Instance {
         let finite = Some(pose.bounds(&finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
         let is_bounded = bounds.is_finite();
         let bounds = if is_bounded { grown(&bounds, extent(&bounds)) } else { bounds };
-        Self { geometry, mover: Self::STANDS, seen, is_bounded, bounds, finite, pose }
+        let mirrors = pose.mirrors();
+        Self { geometry, mover: Self::STANDS, seen, mirrors, is_bounded, bounds, finite, pose }
     }
 }
