@@ -5,6 +5,19 @@ use durer_core::math::{Bounds3, Motion, Ray, Transform};
 use crate::BuildError;
 
 /// How a geometry is placed in render space.
+///
+/// ```
+/// use durer_accel::Placement;
+/// use durer_accel::glam::{DAffine3, DQuat};
+/// use durer_accel::math::Motion;
+///
+/// // A quarter turn in one second, in straight pieces of at most 2 degrees.
+/// let quarter = DAffine3::from_quat(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2));
+/// let motion = Motion::keyed(vec![(0.0, DAffine3::IDENTITY), (1.0, quarter)])?;
+/// let Placement::Moving(keys) = Placement::from_motion(&motion) else { panic!("it moves") };
+/// assert!(keys.len() >= 46);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Placement {
     /// Object space is render space: rays are not transformed at all.

@@ -11,7 +11,29 @@ use crate::{
     user::Callback,
 };
 
-/// A ray and what it asks: `accel.query(&ray).mask(1).closest()`.
+/// A ray and what it asks.
+///
+/// ```
+/// use durer_accel::math::{Point3, Ray, Vector3};
+/// use durer_accel::{AccelBuilder, BuildOptions, Placement, TraversalCounts, Triangles, Visibility};
+///
+/// # let mut builder = AccelBuilder::new(BuildOptions::default());
+/// # let positions = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from).to_vec();
+/// # let mesh = builder.triangles(Triangles { positions, indices: vec![[0, 1, 2]] })?;
+/// let seen = Visibility { mask: 0b10, hides_backs: true, is_reversed: false };
+/// builder.instance_seen(mesh, Placement::Identity, seen)?;
+/// let accel = builder.build()?;
+///
+/// let from_behind = Ray::new(Point3::new(0.0, 0.0, -1.0), Vector3::new(0.0, 0.0, 1.0));
+/// assert!(accel.query(&from_behind).any());
+/// assert!(!accel.query(&from_behind).cull_backs(true).any());
+/// assert!(!accel.query(&from_behind).mask(0b01).any());
+///
+/// let mut counts = TraversalCounts::default();
+/// accel.query(&from_behind).probe(&mut counts, ()).closest();
+/// assert_eq!((counts.nodes, counts.primitives), (1, 1));
+/// # Ok::<(), durer_accel::BuildError>(())
+/// ```
 pub struct Query<'q, U = NoUserGeometry, P: TraversalProbe = NoTraversalProbe> {
     accel: &'q Accel,
     ray: &'q Ray,
