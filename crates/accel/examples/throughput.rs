@@ -1,14 +1,16 @@
-//! Rays per second on one thread: `cargo run --release -p durer-accel --example throughput`.
+//! Rays per second on all threads: `cargo run --release -p durer-accel --example throughput [TRIANGLES [THREADS]]`.
 //!
-//! The scene is a bumpy sphere of 2 million triangles seen from outside (`primary`), random chords from its surface
-//! inwards (`diffuse`) and short shadow rays (`occlusion`). Thread time is not measured: run it on an idle machine.
+//! The scene is a bumpy sphere seen from outside (`primary`), random chords from its surface inwards (`diffuse`) and
+//! short shadow rays (`occlusion`), for each preset and each set of instructions. Times are those of the clock: run it
+//! on an idle machine.
 use std::time::Instant;
 
-use durer_accel::{Accel, AccelBuilder, BuildOptions, Placement, Triangles};
-use durer_core::math::{Point3, Ray, Vector3, float};
+use durer_accel::math::{Point3, Ray, Vector3, float};
+use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, Isa, Placement, Preset, Triangles};
 
-const RINGS: u32 = 1000;
 const RAYS: u32 = 1 << 20;
+/// Rays that a thread takes at a time.
+const CHUNK: usize = 1 << 12;
 
 /// A number in `[0, 1)` from a counter.
 fn unit(i: u32, stream: u32) -> f32 {
@@ -26,56 +28,87 @@ fn on_sphere(u: f32, v: f32) -> Vector3 {
     Vector3::new(r * float::cos(phi), r * float::sin(phi), z)
 }
 
-fn bumpy_sphere() -> Triangles {
+fn bumpy_sphere(rings: u32) -> Triangles {
     let mut mesh = Triangles::default();
-    for i in 0..=RINGS {
-        for j in 0..=RINGS {
-            let n = on_sphere(i as f32 / RINGS as f32, j as f32 / RINGS as f32);
+    for i in 0..=rings {
+        for j in 0..=rings {
+            let n = on_sphere(i as f32 / rings as f32, j as f32 / rings as f32);
             let bump = float::sin(40.0 * n.x) * float::sin(37.0 * n.y) * float::sin(43.0 * n.z);
             mesh.positions.push(Point3::ZERO + n * (1.0 + 0.05 * bump));
-            let k = i * (RINGS + 1) + j;
-            if i < RINGS && j < RINGS {
-                mesh.indices.extend([[k, k + 1, k + RINGS + 2], [k, k + RINGS + 2, k + RINGS + 1]]);
+            let k = i * (rings + 1) + j;
+            if i < rings && j < rings {
+                mesh.indices.extend([[k, k + 1, k + rings + 2], [k, k + rings + 2, k + rings + 1]]);
             }
         }
     }
     mesh
 }
 
-fn measure(name: &str, rays: &[Ray], mut trace: impl FnMut(&Ray) -> bool) {
+/// Millions of rays a second, and the part of them for which `trace` is true.
+fn measure(threads: usize, rays: &[Ray], trace: impl Fn(&Ray) -> bool + Sync) -> (f64, f64) {
     let start = Instant::now();
-    let hits = rays.iter().filter(|r| trace(r)).count();
-    let seconds = start.elapsed().as_secs_f64();
-    let (count, share) = (rays.len() as f64, hits as f64 / rays.len() as f64);
-    println!("{name:<10} {:6.2} Mrays/s, {:4.1} % hit", count / seconds * 1e-6, share * 100.0);
+    let share = rays.len().div_ceil(threads * CHUNK) * CHUNK;
+    let hits: usize = std::thread::scope(|scope| {
+        let trace = &trace;
+        let count = |part: &'_ [Ray]| part.iter().filter(|ray| trace(ray)).count();
+        let running: Vec<_> = rays.chunks(share).map(|part| scope.spawn(move || count(part))).collect();
+        running.into_iter().map(|thread| thread.join().expect("rays do not panic")).sum()
+    });
+    let count = rays.len() as f64;
+    (count / start.elapsed().as_secs_f64() * 1e-6, hits as f64 / count)
 }
 
-fn main() {
-    let mut builder = AccelBuilder::new(BuildOptions::default());
-    let mesh = bumpy_sphere();
-    let start = Instant::now();
-    let id = builder.triangles(mesh).expect("the mesh is finite");
-    builder.instance(id, Placement::Identity).expect("the identity is invertible");
-    let accel = builder.build().expect("within limits");
-    println!("built in {:.2} s: {:?}", start.elapsed().as_secs_f64(), accel.stats());
-
-    let closest = |accel: &Accel, ray: &Ray| accel.query(ray).closest();
+/// Primary, diffuse and occlusion rays.
+fn rays() -> [Vec<Ray>; 3] {
     let side = (RAYS as f32).sqrt() as u32;
-    let primary: Vec<Ray> = (0..RAYS)
-        .map(|i| {
-            let at = |k: u32| (k as f32 + 0.5) / side as f32 - 0.5;
-            Ray::new(Point3::new(0.0, 0.0, 3.0), Vector3::new(at(i % side), at(i / side), -1.2).normalize())
-        })
-        .collect();
-    let diffuse: Vec<Ray> = (0..RAYS)
-        .map(|i| {
-            let o = on_sphere(unit(i, 1), unit(i, 2)) * 0.94;
-            Ray::new(Point3::ZERO + o, (on_sphere(unit(i, 3), unit(i, 4)) - o).normalize())
-        })
-        .collect();
-    let occlusion: Vec<Ray> =
-        diffuse.iter().map(|r| Ray { t_max: 0.1, ..Ray::new(r.o, r.o - Point3::ZERO) }).collect();
-    measure("primary", &primary, |r| closest(&accel, r).is_some());
-    measure("diffuse", &diffuse, |r| closest(&accel, r).is_some());
-    measure("occlusion", &occlusion, |r| accel.query(r).any());
+    let primary = (0..RAYS).map(|i| {
+        let at = |k: u32| (k as f32 + 0.5) / side as f32 - 0.5;
+        Ray::new(Point3::new(0.0, 0.0, 3.0), Vector3::new(at(i % side), at(i / side), -1.2).normalize())
+    });
+    let diffuse = (0..RAYS).map(|i| {
+        let o = on_sphere(unit(i, 1), unit(i, 2)) * 0.94;
+        Ray::new(Point3::ZERO + o, (on_sphere(unit(i, 3), unit(i, 4)) - o).normalize())
+    });
+    let diffuse: Vec<_> = diffuse.collect();
+    let occlusion = diffuse.iter().map(|r| Ray { t_max: 0.1, ..Ray::new(r.o, r.o - Point3::ZERO) });
+    [primary.collect(), occlusion.collect(), diffuse]
+}
+
+fn report(accel: &Accel, threads: usize, [primary, occlusion, diffuse]: &[Vec<Ray>; 3]) {
+    let results = [
+        ("primary", measure(threads, primary, |ray| accel.closest(ray).is_some())),
+        ("diffuse", measure(threads, diffuse, |ray| accel.closest(ray).is_some())),
+        ("occlusion", measure(threads, occlusion, |ray| accel.any(ray))),
+    ];
+    let shown = results.map(|(name, (rate, hit))| format!("{name} {rate:7.2} ({:.0} % hit)", hit * 100.0));
+    println!("    {:>8}: {} Mrays/s", accel.isa().name(), shown.join(", "));
+}
+
+fn main() -> Result<(), BuildError> {
+    let mut words = std::env::args().skip(1).map_while(|word| word.parse::<usize>().ok());
+    let triangles = words.next().unwrap_or(2_000_000);
+    let all = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    let threads = words.next().unwrap_or(all).max(1);
+    let mesh = bumpy_sphere((triangles as f32 / 2.0).sqrt() as u32);
+    let rays = rays();
+    println!("{} triangles, {threads} threads", mesh.indices.len());
+    for preset in [Preset::Fast, Preset::Balanced, Preset::High] {
+        for isa in Isa::available() {
+            let options = BuildOptions { preset, isa: Some(isa), ..BuildOptions::default() };
+            let start = Instant::now();
+            let mut builder = AccelBuilder::new(options);
+            let id = builder.borrowed_triangles(&mesh.positions, &mesh.indices)?;
+            builder.instance(id, Placement::Identity)?;
+            let accel = builder.build()?;
+            let stats = accel.stats();
+            println!(
+                "{preset:?}, built in {:.2} s, {} MiB, {} nodes",
+                start.elapsed().as_secs_f64(),
+                stats.bytes >> 20,
+                stats.nodes
+            );
+            report(&accel, threads, &rays);
+        }
+    }
+    Ok(())
 }

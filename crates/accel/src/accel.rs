@@ -18,7 +18,10 @@ pub(crate) struct Instance {
     pub(crate) geometry: GeometryId,
     /// Which of the movers it is, or [`Instance::STANDS`].
     pub(crate) mover: u32,
+    /// By whom, and the side that is the back in the tree that holds it.
     pub(crate) seen: Visibility,
+    /// It stands still and left and right change places.
+    pub(crate) mirrors: bool,
     /// That its box is finite.
     pub(crate) is_bounded: bool,
     /// Box in render space around everything, over all time, grown once by the slack of box tests.

@@ -4,6 +4,16 @@ use crate::lanes::Portable;
 use crate::simd::{Avx2, Avx512};
 
 /// A set of vector instructions. All of them find the same hits, bit for bit.
+///
+/// ```
+/// use durer_accel::{AccelBuilder, BuildOptions, Isa};
+///
+/// for isa in Isa::available() {
+///     let options = BuildOptions { isa: Some(isa), ..BuildOptions::default() };
+///     assert_eq!(AccelBuilder::new(options).build()?.isa(), isa);
+/// }
+/// # Ok::<(), durer_accel::BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Isa {
     /// x86-64 with AVX-512 F, VL and DQ: nodes of 16 boxes.

@@ -1,9 +1,11 @@
-//! Where does a ray first meet the scene? A ray-intersection kernel, worth using alone.
+//! Where does a ray first meet the scene? Two levels of trees, walked one ray at a time.
 //!
-//! Two levels of bounding volume hierarchies: one tree over the triangles or boxes of each geometry, one tree over
-//! the placed instances. Curves ([`curve`]) and points ([`point`]) are built in; all other shapes are boxes with a callback
+//! One tree over the triangles or boxes of each geometry that moves or repeats, one tree over everything else and the
+//! placed instances. Curves ([`curve`]) and points ([`point`]) are built in; all other shapes are boxes with a callback
 //! ([`UserGeometry`]). A second engine,
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
+//!
+#![doc = include_str!("../README.md")]
 //!
 //! # The contract of a hit
 //! - A hit has a finite `t` with `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
@@ -12,7 +14,8 @@
 //! - `t` is never less than where the ray enters the primitive's box (and its instance's): if rounding says otherwise,
 //!   `t` is raised to it. Box arithmetic is monotone, so no box around the primitive can be entered later than its
 //!   hit, and culling can never change a result. That is what makes both engines equal, not luck with rounding.
-//! - A ray with a zero or non-finite direction, a non-finite origin or `t_min > t_max` misses everything.
+//! - A ray with a zero or non-finite direction (or one shorter than 3e-39), a non-finite origin or `t_min > t_max`
+//!   misses everything.
 #![deny(unsafe_code)]
 
 mod accel;
@@ -42,6 +45,7 @@ mod user;
 
 pub use accel::{Accel, NodeBounds};
 pub use build::{AccelBuilder, BuildOptions, Engine, GeometryData, Precision, Quads, Triangles, Visibility};
+pub use durer_core::{glam, math};
 pub use error::BuildError;
 pub use geometry::GeometryId;
 pub use grow::Preset;

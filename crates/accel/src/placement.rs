@@ -5,6 +5,19 @@ use durer_core::math::{Bounds3, Motion, Ray, Transform};
 use crate::BuildError;
 
 /// How a geometry is placed in render space.
+///
+/// ```
+/// use durer_accel::Placement;
+/// use durer_accel::glam::{DAffine3, DQuat};
+/// use durer_accel::math::Motion;
+///
+/// // A quarter turn in one second, in straight pieces of at most 2 degrees.
+/// let quarter = DAffine3::from_quat(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2));
+/// let motion = Motion::keyed(vec![(0.0, DAffine3::IDENTITY), (1.0, quarter)])?;
+/// let Placement::Moving(keys) = Placement::from_motion(&motion) else { panic!("it moves") };
+/// assert!(keys.len() >= 46);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Placement {
     /// Object space is render space: rays are not transformed at all.
@@ -111,6 +124,10 @@ impl Pose {
             Self::Still(m) => Some(*m),
             Self::Moving(keys) => Some(Transform::from_f64(&interpolate(keys, time))),
         }
+    }
+    /// Whether it stands still and left and right change places.
+    pub(crate) fn mirrors(&self) -> bool {
+        matches!(self, Self::Still(m) if m.swaps_handedness())
     }
     /// `ray` in object space; `None` stands for the identity.
     pub(crate) fn object_ray(&self, ray: &Ray) -> Option<Ray> {

@@ -11,7 +11,29 @@ use crate::{
     user::Callback,
 };
 
-/// A ray and what it asks: `accel.query(&ray).mask(1).closest()`.
+/// A ray and what it asks.
+///
+/// ```
+/// use durer_accel::math::{Point3, Ray, Vector3};
+/// use durer_accel::{AccelBuilder, BuildOptions, Placement, TraversalCounts, Triangles, Visibility};
+///
+/// # let mut builder = AccelBuilder::new(BuildOptions::default());
+/// # let positions = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from).to_vec();
+/// # let mesh = builder.triangles(Triangles { positions, indices: vec![[0, 1, 2]] })?;
+/// let seen = Visibility { mask: 0b10, hides_backs: true, ..Visibility::default() };
+/// builder.instance_seen(mesh, Placement::Identity, seen)?;
+/// let accel = builder.build()?;
+///
+/// let from_behind = Ray::new(Point3::new(0.0, 0.0, -1.0), Vector3::new(0.0, 0.0, 1.0));
+/// assert!(accel.query(&from_behind).any());
+/// assert!(!accel.query(&from_behind).cull_backs(true).any());
+/// assert!(!accel.query(&from_behind).mask(0b01).any());
+///
+/// let mut counts = TraversalCounts::default();
+/// accel.query(&from_behind).probe(&mut counts, ()).closest();
+/// assert_eq!((counts.nodes, counts.primitives), (1, 1));
+/// # Ok::<(), durer_accel::BuildError>(())
+/// ```
 pub struct Query<'q, U = NoUserGeometry, P: TraversalProbe = NoTraversalProbe> {
     accel: &'q Accel,
     ray: &'q Ray,
@@ -162,7 +184,8 @@ impl<'a> Cx<'a> {
     #[inline]
     fn new(accel: &'a Accel, callback: &'a dyn Callback, mask: u32, culls: bool, filters: bool) -> Self {
         let (filters, culls) = (filters && accel.is_filtered, culls && accel.hides_backs);
-        let checks = filters || culls || accel.is_selective;
+        // All see rays with some bit in their mask, none those without any.
+        let checks = filters || culls || accel.is_selective || mask == 0;
         let exhaustive = accel.engine == Engine::BruteForce;
         Self { accel, callback, mask, culls, filters, checks, exhaustive }
     }
@@ -233,11 +256,8 @@ impl<'a> Cx<'a> {
             let n = of(self.accel.scene.trees()[0].pages.get::<Packet>(place.row).triangle(lane, 0.0));
             return match owner.pose.at(ray.time) {
                 None => n,
-                // The tree holds the mesh where it is placed.
-                Some(m) => {
-                    let n: Vector3 = m.inverse().normal(n.into()).into();
-                    if m.swaps_handedness() { -n } else { n }
-                }
+                // The tree holds the mesh where it is placed, and turned round if that is mirrored.
+                Some(m) => m.inverse().normal(if owner.mirrors { -n } else { n }.into()).into(),
             };
         }
         let Some(forest) = &self.accel.geometries[owner.geometry.index()].forest else {

@@ -103,6 +103,7 @@ impl Accel {
                 return Err(BuildError::InstanceMerged { instance: index });
             }
             instance.pose = Pose::new(placement, index as usize)?;
+            instance.mirrors = instance.pose.mirrors();
             instance.measure(self.geometries[instance.geometry.index()].bounds);
         }
         let renewed = self.renewed(&mut instances, false)?;

@@ -57,6 +57,10 @@ pub(super) fn assemble(
     for (instance, merged) in instances.iter().zip(&merged) {
         is_own[instance.geometry.index()] |= !merged;
     }
+    for (instance, _) in instances.iter_mut().zip(&merged).filter(|(i, merged)| **merged && i.mirrors) {
+        // In the scene's own tree its triangles are turned round.
+        instance.seen.is_reversed = !instance.seen.is_reversed;
+    }
     let geometries = sources.par_iter().zip(&is_own).map(|(source, &own)| {
         let geometry = Geometry::of(source);
         let forest = if own { Some(maker.forest(source, &geometry.items)?) } else { None };
@@ -74,8 +78,6 @@ pub(super) fn assemble(
         BuildError::check_count(owners.total() as usize + items.len() as usize, "primitives")?;
         let first_id = owners.push(index, items.len());
         let place = instance.pose.place();
-        // Which side is the back is said of object space, and asked of the triangle where it is placed.
-        instance.seen.is_reversed ^= place.is_some_and(|m| m.swaps_handedness());
         let (part, more) = still_part(&sources[geometry], items, first_id, place);
         parts.push(part);
         unbounded.extend(more);

@@ -30,6 +30,24 @@ pub use source::{Quads, Triangles};
 pub(crate) use subject::Stretch;
 
 /// Collects geometries and instances. The order of calls decides the ids and with them ties.
+///
+/// ```
+/// use durer_accel::math::{Point3, Ray, Transform, Vector3};
+/// use durer_accel::{AccelBuilder, BuildOptions, Placement, Triangles};
+///
+/// let mut builder = AccelBuilder::new(BuildOptions::default());
+/// let positions = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from).to_vec();
+/// let mesh = builder.triangles(Triangles { positions, indices: vec![[0, 1, 2]] })?;
+/// // The same mesh twice: here, and four further on.
+/// builder.instance(mesh, Placement::Identity)?;
+/// builder.instance(mesh, Placement::Still(Transform::translate(Vector3::new(0.0, 0.0, 4.0))))?;
+/// let accel = builder.build()?;
+///
+/// let ray = Ray { t_min: 1.5, ..Ray::new(Point3::new(0.0, 0.0, -1.0), Vector3::new(0.0, 0.0, 1.0)) };
+/// let hit = accel.closest(&ray).expect("beyond the first there is the second");
+/// assert_eq!((hit.instance, hit.t), (1, 5.0));
+/// # Ok::<(), durer_accel::BuildError>(())
+/// ```
 #[derive(Debug)]
 pub struct AccelBuilder<'a> {
     options: BuildOptions,
@@ -180,8 +198,16 @@ impl Instance {
     fn new(geometry: GeometryId, pose: Pose, bounds: [Bounds3; 2], seen: Visibility) -> Self {
         let empty = Bounds3::EMPTY;
         let mover = Self::STANDS;
-        let mut instance =
-            Self { geometry, mover, seen, is_bounded: false, bounds: empty, finite: empty, pose };
+        let mut instance = Self {
+            geometry,
+            mover,
+            seen,
+            mirrors: pose.mirrors(),
+            is_bounded: false,
+            bounds: empty,
+            finite: empty,
+            pose,
+        };
         instance.measure(bounds);
         instance
     }

@@ -37,11 +37,21 @@ pub struct BuildOptions {
 }
 
 /// How an instance is seen.
+///
+/// ```
+/// use durer_accel::Visibility;
+///
+/// const SHADOWS: u32 = 0b100;
+/// // Throws no shadow, and is a wall with one side only.
+/// let seen = Visibility { mask: !SHADOWS, hides_backs: true, ..Visibility::default() };
+/// assert_eq!(seen.mask & SHADOWS, 0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Visibility {
     /// Rays whose mask shares no bit with this one pass by.
     pub mask: u32,
-    /// Rays that cull backs pass triangles whose vertices they see clockwise.
+    /// Rays that cull backs pass triangles whose vertices they see clockwise in object space: a placement that mirrors
+    /// does not change which side is the back.
     pub hides_backs: bool,
     /// The other side is the back.
     pub is_reversed: bool,

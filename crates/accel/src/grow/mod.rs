@@ -31,7 +31,15 @@ use durer_core::math::Bounds3;
 use hull::{AreaUnit, Hull};
 use reinsert::Effort;
 
-/// How much work goes into a tree. Times are for one busy core of a 2023 server; threads share the work.
+/// How much work goes into a tree. Times are for one busy core of a 2023 server; threads share the work. The hits are the
+/// same whatever it is.
+///
+/// ```
+/// use durer_accel::{AccelBuilder, BuildOptions, Preset};
+///
+/// let builder = AccelBuilder::new(BuildOptions { preset: Preset::High, ..BuildOptions::default() });
+/// # drop(builder);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
     /// For geometry that changes from frame to frame: full leaves, nothing improved afterwards. About 3 million triangles

@@ -33,11 +33,11 @@ fn wobbling(random: &mut Random) -> (Vec<[u32; 3]>, Keys) {
 #[test]
 fn a_mesh_is_hit_as_it_is_at_the_moment_of_the_ray() {
     let mut random = Random(41);
-    let mut hits = 0;
+    let (mut hits, rays) = (0, ray_count(8000));
     for _ in 0..4 {
         let (indices, keys) = wobbling(&mut random);
         let (tree, brute) = (build(&indices, &keys, Engine::Bvh), build(&indices, &keys, Engine::BruteForce));
-        for _ in 0..ray_count(8000) / 80 {
+        for _ in 0..rays / 80 {
             let time = random.between(0.0, 2.3);
             let segment = Segment::at(time, keys.len(), |key| keys[key].0);
             let (a, b) = (&keys[segment.key].1, &keys[segment.key + 1].1);
@@ -55,7 +55,7 @@ fn a_mesh_is_hit_as_it_is_at_the_moment_of_the_ray() {
             }
         }
     }
-    assert!(hits > 4000, "only {hits} hits: the test means nothing");
+    assert!(hits * 2 > rays, "only {hits} hits: the test means nothing");
 }
 
 #[test]

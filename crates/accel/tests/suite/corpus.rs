@@ -2,9 +2,14 @@
 use durer_accel::{PrimitiveHit, UserGeometry};
 use durer_core::math::{Bounds3, Normal3, Point3, Ray, Vector3};
 
-/// `few`, or a million with `DURER_SLOW` set.
+/// `few`, twenty times as many with `DURER_SLOW` set, a tenth but not less than 2000 with `DURER_QUICK`.
 pub(crate) fn ray_count(few: usize) -> usize {
-    if std::env::var_os("DURER_SLOW").is_some() { 1_000_000 } else { few }
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    match (is_set("DURER_SLOW"), is_set("DURER_QUICK")) {
+        (true, _) => few * 20,
+        (_, true) => (few / 10).max(few.min(2000)),
+        _ => few,
+    }
 }
 
 /// splitmix64.

@@ -119,14 +119,14 @@ fn assert_equal(tree: &Accel, brute: &Accel, shapes: &Shapes, ray: &Ray) -> Opti
 #[test]
 fn the_tree_finds_the_hits_of_brute_force() {
     let scenes = 40;
-    let (mut hits, mut ties) = (0, 0);
+    let (mut hits, mut ties, rays) = (0, 0, ray_count(200_000));
     for scene in 0..scenes {
         let mut random = Random(scene);
         let recipe = recipe(&mut random);
         let shapes = recipe.shapes();
         let tree = build(&recipe, BuildOptions { ..BuildOptions::default() });
         let brute = build(&recipe, BuildOptions { engine: Engine::BruteForce, ..BuildOptions::default() });
-        for _ in 0..ray_count(200_000) / scenes as usize {
+        for _ in 0..rays / scenes as usize {
             let ray = random.ray(5.0, &recipe.landmarks);
             let got = assert_equal(&tree, &brute, &shapes, &ray);
             if let Some(hit) = got {
@@ -137,7 +137,7 @@ fn the_tree_finds_the_hits_of_brute_force() {
         }
     }
     // Instance 0 lies in instance 2: each of its hits is a tie won. The test means nothing if rays rarely hit.
-    assert!(hits > 50_000 && ties > 5_000, "{hits} hits, {ties} ties");
+    assert!(hits * 4 > rays && ties * 40 > rays, "{hits} hits, {ties} ties");
 }
 
 #[test]

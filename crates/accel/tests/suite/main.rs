@@ -1,4 +1,5 @@
-//! What durer-accel promises, checked on seeded random scenes. `DURER_SLOW=1` runs 10^6 rays where noted.
+//! What durer-accel promises, checked on seeded random scenes. `DURER_SLOW=1` takes
+//! twenty times as many rays, `DURER_QUICK=1` a tenth.
 mod animation;
 mod bending;
 mod corpus;
@@ -6,6 +7,7 @@ mod curves;
 mod edge_cases;
 mod equality;
 mod filtered;
+mod fuzz;
 mod icosphere;
 mod instancing;
 mod near_misses;
