@@ -189,11 +189,11 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
 
     #[inline(never)]
     fn item_nearest(&mut self, item: u32, best: &mut Best) {
-        let Some((instance, prim, window)) = self.item(item, best.t) else { return };
+        let Some((instance, prim)) = self.item(item) else { return };
         let ray = self.level.ray;
         let found = self.cx.meet(instance, prim, ray, best.t);
         let Some(PrimitiveHit { t, u, v }) = found else { return };
-        let Some(t) = self.admit(t, window, best.t) else { return };
+        let Some(t) = self.admit(t, self.window(instance, prim), best.t) else { return };
         let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
         let hit = Best { t, u, v, place };
         if self.wins(&hit, best) && self.passes(instance, prim, &hit) {
@@ -203,33 +203,40 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
 
     #[inline(never)]
     fn item_blocks(&mut self, item: u32, t_max: f32) -> bool {
-        let Some((instance, prim, window)) = self.item(item, t_max) else { return false };
+        let Some((instance, prim)) = self.item(item) else { return false };
         let ray = self.level.ray;
         if !self.cx.filters {
             let blocks = self.cx.is_met(instance, prim, ray, t_max);
-            return blocks && window.admits(ray.t_min, t_max) && self.level.floor <= t_max;
+            return blocks
+                && self.window(instance, prim).admits(ray.t_min, t_max)
+                && self.level.floor <= t_max;
         }
         let found = self.cx.meet(instance, prim, ray, t_max);
         let Some(PrimitiveHit { t, u, v }) = found else { return false };
-        let Some(t) = self.admit(t, window, t_max) else { return false };
+        let Some(t) = self.admit(t, self.window(instance, prim), t_max) else { return false };
         let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
         self.passes(instance, prim, &Best { t, u, v, place })
     }
 
-    /// The name of an item and the stretch of the ray in its own box, if the ray may meet it.
-    fn item(&mut self, item: u32, t_max: f32) -> Option<(u32, u32, Window)> {
+    /// The name of an item, if the ray may meet it.
+    #[inline(always)]
+    fn item(&mut self, item: u32) -> Option<(u32, u32)> {
         let (instance, prim) = self.cx.primitive(self.level.instance, item);
         if self.cx.accel.instances[instance as usize].seen.mask & self.cx.mask == 0 {
             return None;
         }
-        let space = self.space;
-        let own = self.cx.accel.items(instance).own_box(prim);
-        let window = own.map_or(Window::ALL, |b| space.slab.window(&b));
-        let asks = window.admits(space.ray.t_min, t_max) || self.cx.exhaustive;
-        if asks {
-            self.watch.primitive(instance, prim);
+        self.watch.primitive(instance, prim);
+        Some((instance, prim))
+    }
+
+    /// The stretch of the ray in an item's own box. PERF: asked of hits only; the node that holds the item has tested a
+    /// box that is hardly larger (bench render).
+    #[inline(always)]
+    fn window(&self, instance: u32, prim: u32) -> Window {
+        match self.cx.accel.items(instance).own_box(prim) {
+            Some(own) => self.space.slab.window(&own),
+            None => Window::ALL,
         }
-        asks.then_some((instance, prim, window))
     }
 
     /// The `t` a hit at `t` counts with: not before the ray enters the boxes (see the crate's contract). `None` if that
