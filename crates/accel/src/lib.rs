@@ -5,6 +5,10 @@
 //! ([`UserGeometry`]). A second engine,
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
 //!
+//! Scenes that change from picture to picture keep their trees: [`Accel::refit`] gives a geometry new vertices,
+//! [`Accel::set_placements`] moves instances, [`Accel::sah_cost`] tells when building anew pays. For antialiasing that must
+//! not lose small things [`Accel::near_misses`] tells what a ray passes closely.
+//!
 //! # The contract of a hit
 //! - A hit has a finite `t` with `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
 //! - A triangle hit lies further from the origin than its own rounding error bound, so a ray that starts on a triangle

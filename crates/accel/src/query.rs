@@ -93,8 +93,8 @@ impl<'q, U: UserGeometry, P: TraversalProbe> Query<'q, U, P> {
     ///
     /// The sphere of a primitive is that of its box in render space at the ray's time: around its centre, with half its
     /// diagonal as radius. Of triangles it is the box of their placed vertices, of other shapes the box around the
-    /// corners of their placed box, which is a few millionths larger than given. A quad counts as its two triangles; the one whose centre is nearer is told. What has an
-    /// infinite box is never visited: it cannot be lost.
+    /// corners of their placed box, which is a few millionths larger than given. A quad counts as its two triangles; the
+    /// one whose centre is nearer is told. What has an infinite box is never visited: it cannot be lost.
     ///
     /// The sphere is enlarged by `radius_of(t)`, in units of render space, 0 or more, where `t` is the parameter at which the
     /// ray comes nearest to the centre, clamped to `[t_min, t_max]`. `radius_of` must not fall as `t` rises: of what is far

@@ -57,7 +57,7 @@ impl Part<'_> {
             }
             Self::Quads { mesh, place, .. } => {
                 let [a, b, c, d] = mesh.indices[at / 2];
-                let corners = if at % 2 == 0 { [a, b, d] } else { [c, d, b] };
+                let corners = if at.is_multiple_of(2) { [a, b, d] } else { [c, d, b] };
                 Some([corners.map(|i| placed(mesh.positions[i as usize], place)); 2])
             }
             Self::Keyed { start, end, indices } => {

@@ -31,7 +31,7 @@ pub(crate) fn exhaustive_blocked<W: Watch>(
 
 fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: &mut Best, watch: &mut W) {
     let (tree, moment) = level.tree();
-    enter_space!(world, true, level.ray, level.forest.region, ());
+    enter_space!(world, true, level.ray, level.forest.region);
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {
             let Some((admitted, entered)) = cx.window(index, &world, best.t) else { continue };

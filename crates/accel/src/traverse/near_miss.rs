@@ -3,7 +3,8 @@
 //! A node whose box has the centre `C` and half the diagonal `W` holds boxes with centres `c` and half diagonals `w`, and
 //! `|c - C| + |w| <= sqrt(2) |W|`, because the two vectors on the left add up to no more than `W` along each axis and so
 //! the sum of their squares is no more than `W^2`. If the ray stays further than that from `C`, it meets none of the
-//! spheres inside. Triangles that the builder cut are not inside and so are tested one by one. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+//! spheres inside. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+//! Triangles that the builder cut lie in no box as a whole: they are tested one by one.
 use std::cmp::Ordering;
 
 use durer_core::glam::DVec3;
