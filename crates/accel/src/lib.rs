@@ -5,6 +5,10 @@
 //! ([`UserGeometry`]). A second engine,
 //! [`Engine::BruteForce`], tests every primitive with every ray and returns the same hits bit for bit.
 //!
+//! Scenes that change from picture to picture keep their trees: [`Accel::refit`] gives a geometry new vertices,
+//! [`Accel::set_placements`] moves instances, [`Accel::sah_cost`] tells when building anew pays. For antialiasing that must
+//! not lose small things [`Accel::near_misses`] tells what a ray passes closely.
+//!
 #![doc = include_str!("../README.md")]
 //!
 //! # The contract of a hit

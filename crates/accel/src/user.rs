@@ -56,7 +56,7 @@ pub trait UserGeometry {
     }
 }
 
-/// For scenes of triangles only: boxes, if there are any, are never hit.
+/// For scenes without shapes of the caller: boxes, if there are any, are never hit.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoUserGeometry;
 

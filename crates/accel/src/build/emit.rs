@@ -30,14 +30,19 @@ pub(crate) fn tree<N: NodeWriter, R: PacketRecord>(
     lay_out::<N, R>(subject, &wide)
 }
 
-fn lay_out<N: NodeWriter, R: PacketRecord>(
+/// Memory with all packets in place, and by child the row of its packet and its box if it is a leaf.
+struct Laid {
+    pages: Pages,
+    rows: Vec<u32>,
+    boxes: Vec<Stretch>,
+}
+
+/// Writes the leaves of a tree with this many nodes.
+fn leaves<N: NodeWriter, R: PacketRecord>(
     subject: &Subject<'_>,
     wide: &WideTree,
-) -> Result<Tree, BuildError> {
-    let nodes = wide.nodes.len().saturating_sub(1);
-    if nodes == 0 {
-        return Ok(Tree::empty());
-    }
+    nodes: usize,
+) -> Result<Laid, BuildError> {
     let node_rows = rows_of::<N>();
     let is_packet = |first: u32| subject.packs(wide.order[first as usize]);
     // The row of each leaf's packet, by child.
@@ -80,6 +85,19 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
             *free.next().expect("as many packets as were counted") = packet;
         }
     });
+    Ok(Laid { pages, rows, boxes })
+}
+
+fn lay_out<N: NodeWriter, R: PacketRecord>(
+    subject: &Subject<'_>,
+    wide: &WideTree,
+) -> Result<Tree, BuildError> {
+    let nodes = wide.nodes.len().saturating_sub(1);
+    if nodes == 0 {
+        return Ok(Tree::empty());
+    }
+    let node_rows = rows_of::<N>();
+    let Laid { mut pages, rows, boxes } = leaves::<N, R>(subject, wide, nodes)?;
     let mut depths = vec![0u32; nodes];
     let mut depth = 0;
     let mut around: Vec<Stretch> = vec![[Bounds3::EMPTY; 2]; nodes];
@@ -94,7 +112,9 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
                     depths[node] = depths[node].max(depths[child.first as usize] + 1);
                     (around[child.first as usize], Link::new(Target::Node(child.first * node_rows)))
                 }
-                _ if is_packet(child.first) => (boxes[at], Link::new(Target::Packet(rows[at]))),
+                _ if subject.packs(wide.order[child.first as usize]) => {
+                    (boxes[at], Link::new(Target::Packet(rows[at])))
+                }
                 _ => (boxes[at], subject.link(wide.order[child.first as usize])),
             };
             let planes = stretch.map(|b| [b.min.to_array(), b.max.to_array()]);

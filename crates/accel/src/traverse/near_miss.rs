@@ -3,7 +3,8 @@
 //! A node whose box has the centre `C` and half the diagonal `W` holds boxes with centres `c` and half diagonals `w`, and
 //! `|c - C| + |w| <= sqrt(2) |W|`, because the two vectors on the left add up to no more than `W` along each axis and so
 //! the sum of their squares is no more than `W^2`. If the ray stays further than that from `C`, it meets none of the
-//! spheres inside. Triangles that the builder cut are not inside and so are tested one by one. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+//! spheres inside. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
+//! Triangles that the builder cut lie in no box as a whole: they are tested one by one.
 use std::cmp::Ordering;
 
 use durer_core::glam::DVec3;
@@ -45,7 +46,10 @@ pub(crate) fn near_misses(
     if largest_component(ray).is_none() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
         return Vec::new();
     }
-    let mut search = Search { accel, ray, mask, radius_of, found: Vec::new() };
+    let (o, d) = (ray.o.to_f64(), ray.d.to_f64());
+    let ends = (ray.t_min.into(), ray.t_max.into());
+    let t_per_length = 1.0 / d.length();
+    let mut search = Search { accel, ray, o, d, ends, t_per_length, mask, radius_of, found: Vec::new() };
     for forest in std::iter::once(&accel.scene).chain(accel.movers.iter().map(|movers| &movers.forest)) {
         search.forest(SCENE, forest, None);
     }
@@ -62,6 +66,12 @@ pub(crate) fn near_misses(
 struct Search<'a> {
     accel: &'a Accel,
     ray: &'a Ray,
+    o: DVec3,
+    d: DVec3,
+    /// `t_min` and `t_max`.
+    ends: (f64, f64),
+    /// Of the ray parameter, per unit of length.
+    t_per_length: f64,
     mask: u32,
     radius_of: &'a dyn Fn(f32) -> f32,
     found: Vec<NearMiss>,
@@ -157,7 +167,7 @@ impl Search<'_> {
         let seen = self.accel.instances[instance as usize].seen.mask & self.mask != 0;
         let Some(bounds) = bounds.filter(|b| seen && b.is_finite()) else { return };
         let (center, half) = sphere(&bounds);
-        let t = self.approach(center).clamp(self.ray.t_min.into(), self.ray.t_max.into());
+        let t = self.approach(center).clamp(self.ends.0, self.ends.1);
         let distance = self.distance(center, t) as f32;
         let (t, radius) = (t as f32, half as f32);
         if distance <= radius + (self.radius_of)(t) {
@@ -172,12 +182,12 @@ impl Search<'_> {
             return true;
         }
         let (center, half) = sphere(bounds);
-        let (t_min, t_max) = (f64::from(self.ray.t_min), f64::from(self.ray.t_max));
-        let size = center.abs().max_element() + self.ray.o.to_f64().abs().max_element();
+        let (t_min, t_max) = self.ends;
+        let size = center.abs().max_element() + self.o.abs().max_element();
         let slack = SLACK * (half + size);
         let nearest = self.approach(center);
         let distance = self.distance(center, nearest.clamp(t_min, t_max));
-        let furthest = nearest + (half + slack) / self.ray.d.to_f64().length();
+        let furthest = nearest + (half + slack) * self.t_per_length;
         let furthest = (furthest.clamp(t_min, t_max) as f32).next_up().min(self.ray.t_max).min(f32::MAX);
         let enlarged = std::f64::consts::SQRT_2 * half + f64::from((self.radius_of)(furthest));
         distance <= enlarged * (1.0 + SLACK) + slack
@@ -185,12 +195,11 @@ impl Search<'_> {
 
     /// The parameter at which the ray's line is nearest to `p`.
     fn approach(&self, p: DVec3) -> f64 {
-        let d = self.ray.d.to_f64();
-        (p - self.ray.o.to_f64()).dot(d) / d.length_squared()
+        (p - self.o).dot(self.d) * (self.t_per_length * self.t_per_length)
     }
 
     fn distance(&self, p: DVec3, t: f64) -> f64 {
-        (self.ray.o.to_f64() + self.ray.d.to_f64() * t - p).length()
+        (self.o + self.d * t - p).length()
     }
 }
 

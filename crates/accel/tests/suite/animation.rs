@@ -78,7 +78,7 @@ fn changed_scenes_are_hit_like_new_ones() {
             }
             let (fresh, _) = recipe.build(options((Engine::Bvh, None)));
             let landmarks = recipe.landmarks();
-            let rays: Vec<_> = (0..ray_count(400)).map(|_| random.ray(5.0, &landmarks)).collect();
+            let rays: Vec<_> = (0..ray_count(20_000) / 50).map(|_| random.ray(5.0, &landmarks)).collect();
             for (accel, _) in &changed {
                 hits += assert_same(accel, &fresh, &recipe.shapes(), &rays);
             }

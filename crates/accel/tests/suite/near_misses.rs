@@ -1,11 +1,13 @@
 //! Enlarged bounding spheres: every primitive that a ray passes closely is told, and nothing else.
+use std::collections::BTreeMap;
+
 use durer_accel::{
     Accel, AccelBuilder, BuildOptions, Engine, Isa, NearMiss, Placement, Preset, Quads, Triangles, Visibility,
 };
 use durer_core::glam::{DAffine3, DQuat, DVec3};
 use durer_core::math::{Bounds3, Motion, Point3, Ray, Segment, Transform, Vector3};
 
-use crate::corpus::{Random, ray_count};
+use crate::corpus::Random;
 use crate::icosphere::icosphere;
 
 /// Where the vertices of a primitive are at a moment, in object space.
@@ -116,6 +118,31 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Which primitives of a placed geometry the ray meets: surely, surely not, or too close to say.
+    fn expected(
+        &self,
+        geometry: usize,
+        place: &Transform,
+        ray: &Ray,
+        radius_of: impl Fn(f32) -> f32,
+    ) -> BTreeMap<u32, Option<bool>> {
+        let mut expected = BTreeMap::new();
+        for (prim, hull) in self.hulls(geometry) {
+            let points: Vec<_> = hull(ray.time).iter().map(|p| place.point(*p)).collect();
+            let meets = meets(&points, ray, &radius_of);
+            // Of two halves one that is met is enough.
+            let so_far = expected.entry(prim).or_insert(Some(false));
+            *so_far = match (*so_far, meets) {
+                (Some(true), _) | (_, Some(true)) => Some(true),
+                (None, _) | (_, None) => None,
+                _ => Some(false),
+            };
+        }
+        expected
+    }
+}
+
 /// Whether the ray meets the enlarged sphere: surely, surely not, or too close to say.
 fn meets(points: &[Point3], ray: &Ray, radius_of: impl Fn(f32) -> f32) -> Option<bool> {
     let (min, max) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
@@ -144,7 +171,7 @@ fn near_misses_are_those_of_a_loop_over_all_primitives() {
         let brute = scene.build(options(Engine::BruteForce, None));
         let trees = Isa::available().into_iter().map(|isa| scene.build(options(Engine::Bvh, Some(isa))));
         let trees: Vec<_> = trees.collect();
-        for i in 0..ray_count(300) {
+        for i in 0..300 {
             let mut ray = random.ray(5.0, &scene.still.positions);
             if ray.d.length() == 0.0 {
                 continue;
@@ -167,22 +194,7 @@ fn near_misses_are_those_of_a_loop_over_all_primitives() {
             assert!(found.is_sorted_by(|a, b| (a.instance, a.prim) < (b.instance, b.prim)), "each once");
             for (instance, (geometry, _, seen)) in (0u32..).zip(&scene.instances) {
                 let place = brute.instance_transform(instance, ray.time);
-                let mut expected = std::collections::BTreeMap::new();
-                for (prim, hull) in scene.hulls(*geometry) {
-                    let mut points: Vec<_> = hull(ray.time).iter().map(|p| place.point(*p)).collect();
-                    if *geometry == 3 {
-                        points = Bounds3::around(points).corners().to_vec();
-                    }
-                    let meets = meets(&points, &ray, radius_of);
-                    // Of two halves one that is met is enough.
-                    let so_far = expected.entry(prim).or_insert(Some(false));
-                    *so_far = match (*so_far, meets) {
-                        (Some(true), _) | (_, Some(true)) => Some(true),
-                        (None, _) | (_, None) => None,
-                        _ => Some(false),
-                    };
-                }
-                for (prim, meets) in expected {
+                for (prim, meets) in scene.expected(*geometry, &place, &ray, radius_of) {
                     let told = found.iter().any(|miss| (miss.instance, miss.prim) == (instance, prim));
                     let expected = meets.map(|meets| meets && seen & mask != 0);
                     assert!(expected.is_none_or(|e| e == told), "{ray:?} {instance} {prim} {told}");
