@@ -24,8 +24,8 @@ impl<'r> Space<'r> {
 
 /// Declares `$space` for a ray and a region, or leaves the function if the ray can hit nothing.
 macro_rules! enter_space {
-    ($space:ident, $robust:expr, $ray:expr, $region:expr $(, $nothing:expr)?) => {
-        let Some(largest) = $crate::slab::largest_component($ray) else { return $($nothing)? };
+    ($space:ident, $robust:expr, $ray:expr, $region:expr) => {
+        let Some(largest) = $crate::slab::largest_component($ray) else { return Default::default() };
         let mut $space = $crate::space::Space::new::<$robust>($ray, largest, $region);
         if $crate::slab::Slab::is_odd($ray, largest, $region) {
             $space.slab.widen($ray, largest, $region);
