@@ -126,7 +126,7 @@ impl UserGeometry for Holes {
         panic!("there are no shapes of the caller")
     }
     fn accepts(&self, hit: &Hit) -> bool {
-        hit.prim % 3 != 0 || hit.u > 0.4
+        !hit.prim.is_multiple_of(3) || hit.u > 0.4
     }
 }
 

@@ -162,7 +162,8 @@ impl Recipe {
 
     /// Whether a geometry has trees of its own.
     fn is_apart(&self, geometry: usize) -> bool {
-        geometry != 0 && (geometry % 2 == 0 || matches!(self.geometries[geometry], Geometry::Keyed(..)))
+        geometry != 0
+            && (geometry.is_multiple_of(2) || matches!(self.geometries[geometry], Geometry::Keyed(..)))
     }
 
     /// Instances that can be placed anew.

@@ -113,7 +113,7 @@ fn corners(body: &Body, prim: usize, time: f32) -> ([DVec3; 3], f64) {
         }
         Body::Quads(mesh) => {
             let [a, b, c, d] = mesh.indices[prim / 2];
-            let t = of(&mesh.positions, if prim % 2 == 0 { [a, b, d] } else { [c, d, b] });
+            let t = of(&mesh.positions, if prim.is_multiple_of(2) { [a, b, d] } else { [c, d, b] });
             (t, largest(&t))
         }
         Body::Keyed { indices, keys } => {
