@@ -12,6 +12,7 @@ use serde_json::json;
 const NOT_RUN: &[(&str, &str)] = &[
     ("cargo xtask test", "runs this test"),
     ("cargo xtask bench render", "takes long, and its times mean nothing beside other tests"),
+    ("cargo xtask bench kernel --quick", "as above, and it fetches Embree"),
     ("cargo xtask assets", "takes a minute, and rewrites a page of the repository"),
 ];
 
