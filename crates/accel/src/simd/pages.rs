@@ -85,6 +85,10 @@ impl Pages {
         const { assert!(align_of::<R>() <= ROW && size_of::<R>().is_multiple_of(ROW)) };
         let rows = self.rows.checked_sub(row as usize).expect("a row of the tree");
         let count = rows / (size_of::<R>() / ROW);
+        if count == 0 {
+            // Without rows there is no memory, and its address is aligned to nothing.
+            return &mut [];
+        }
         // SAFETY: `count` records from `row` on lie within the rows; aligned and plain as in `get`.
         unsafe {
             let first = self.start.as_ptr().add(row as usize * ROW).cast::<R>();
@@ -162,7 +166,8 @@ mod tests {
             copy.get_mut::<Numbers>(last).0[7] = 6;
             assert_eq!((pages.get::<Numbers>(last).0[7], copy.get::<Numbers>(last).0[7]), (5, 6));
         }
-        assert_eq!(Pages::zeroed(0).clone().bytes(), 0);
+        let mut none = Pages::zeroed(0).clone();
+        assert_eq!((none.bytes(), none.slice_mut::<Numbers>(0).len()), (0, 0));
     }
 
     #[test]
