@@ -51,7 +51,7 @@ impl<U: durer_accel::UserGeometry> MapHits for [durer_accel::Query<'_, U>; 2] {
 
 #[test]
 fn changed_scenes_are_hit_like_new_ones() {
-    let mut hits = 0;
+    let (mut hits, mut asked) = (0, 0);
     let mut engines: Vec<_> = Isa::available().into_iter().map(|isa| (Engine::Bvh, Some(isa))).collect();
     engines.push((Engine::BruteForce, None));
     for (seed, preset) in [(900, Preset::Balanced), (901, Preset::High), (902, Preset::Fast)] {
@@ -81,6 +81,7 @@ fn changed_scenes_are_hit_like_new_ones() {
             let rays: Vec<_> = (0..ray_count(20_000) / 50).map(|_| random.ray(5.0, &landmarks)).collect();
             for (accel, _) in &changed {
                 hits += assert_same(accel, &fresh, &recipe.shapes(), &rays);
+                asked += rays.len();
             }
         }
         for (accel, _) in &mut changed {
@@ -90,7 +91,7 @@ fn changed_scenes_are_hit_like_new_ones() {
             assert_same(accel, &fresh, &recipe.shapes(), &rays);
         }
     }
-    assert!(hits > 10_000, "{hits}: the test means little");
+    assert!(hits * 2 > asked && asked > 5000, "{hits} of {asked}: the test means little");
 }
 
 #[test]
