@@ -122,7 +122,7 @@ pub enum BuildError {
     },
     /// A tree has more rows than links can name.
     #[error(
-        "the tree over {primitives} primitives takes more than {gigabytes} GiB; split the mesh into several geometries"
+        "the tree over {primitives} primitives takes more than {gigabytes} GiB; leave out geometry, or trace the scene in parts"
     )]
     TreeTooLarge {
         /// Primitives of the tree.

@@ -16,8 +16,9 @@
 //! - A triangle hit lies further from the origin than its own rounding error bound, so a ray that starts on a triangle
 //!   does not meet it again at `t` = noise. There are no epsilons.
 //! - `t` is never less than where the ray enters the primitive's box (and its instance's): if rounding says otherwise,
-//!   `t` is raised to it. Box arithmetic is monotone, so no box around the primitive can be entered later than its
-//!   hit, and culling can never change a result. That is what makes both engines equal, not luck with rounding.
+//!   `t` is raised to it. Boxes of nodes are tested with more slack than that entry is computed with, so that none around
+//!   the primitive is entered later than its hit, and culling cannot change a result. Of triangles that [`Preset::High`]
+//!   has cut this is tested, not proven: a part's box may begin beyond the entry of the whole.
 //! - A ray with a zero or non-finite direction (or one shorter than 3e-39), a non-finite origin or `t_min > t_max`
 //!   misses everything.
 #![deny(unsafe_code)]

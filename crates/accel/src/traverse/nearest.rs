@@ -104,13 +104,12 @@ fn put_aside<K: Kernel, N: BoxNode<K::Boxes>>(
     let b = child(second);
     kernel.prefetch(tree.pages.address(Link(b as u32)));
     if hit == 0 {
-        // PERF: a branch, not a choice of values: the processor goes on with its guess (bench kernel).
         if b < a {
             stack.push(a);
-            return Link(guess(b));
+            return Link(b as u32);
         }
         stack.push(b);
-        return Link(guess(a));
+        return Link(a as u32);
     }
     let mut nearest = a;
     if b < a {
@@ -133,13 +132,7 @@ fn put_aside<K: Kernel, N: BoxNode<K::Boxes>>(
         }
         count += 1;
         if hit == 0 {
-            return Link(guess(nearest));
+            return Link(nearest as u32);
         }
     }
-}
-
-/// The link of an entry, behind a veil: so that two branches that differ by their entry only stay branches.
-#[inline(always)]
-fn guess(entry: u64) -> u32 {
-    entry as u32
 }
