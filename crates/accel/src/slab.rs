@@ -11,30 +11,34 @@
 use durer_core::math::{Bounds3, Ray};
 use wide::f32x4;
 
+use crate::triangle::T_MAX;
+
 /// Half the distance between 1 and the next number.
 const U: f32 = f32::EPSILON / 2.0;
 /// Slack of directions and boxes, twice what the triangle test needs and more.
 const SLACK: f32 = 16.0 * U;
 /// Slack of what the origin does to a sum.
 const ORIGIN_SLACK: f32 = 4.0 * U;
-/// Smallest component of a direction compared to its largest: below it the ray moves along the axis by nothing.
+/// Smallest component of a direction compared to its length: below it the ray moves along the axis by nothing.
 const FLOOR: f32 = 1e-18;
-/// The reciprocal of any shorter component is infinite.
-const SHORTEST: f32 = 3e-39;
+/// The reciprocal of the largest component of any shorter direction is infinite.
+const SHORTEST: f32 = 9e-39;
+/// Directions from this length on need no care.
+const SHORT: f32 = 1e-18;
 /// Products of reciprocals and coordinates stay below the largest number.
 const PRODUCT_MAX: f32 = 1e37;
 
 /// A ray's constants for meeting planes, by axis: `t = plane * r + c`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
-    /// For the planes by which the ray enters; the fourth lane repeats the third.
+    /// For the planes by which the ray enters; the fourth lanes hold nothing.
     pub(crate) near_r: f32x4,
     pub(crate) near_c: f32x4,
     /// For those by which it leaves.
     pub(crate) far_r: f32x4,
     pub(crate) far_c: f32x4,
-    /// Which plane it enters by: 0 the lower, 1 the upper.
-    pub(crate) near_side: [usize; 3],
+    /// Whether it enters by the upper plane.
+    pub(crate) enters_above: [bool; 3],
     o: f32x4,
     /// Absolute slack of rays that begin behind their origin.
     behind: f32x4,
@@ -43,13 +47,15 @@ pub(crate) struct Slab {
 }
 
 impl Slab {
-    /// For boxes whose coordinates are at most `region` in magnitude, and a ray with [`largest_component`] `largest`.
+    /// For a ray of this [`length`] with no reciprocal larger than that of `floor`.
     #[inline(always)]
-    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, largest: f32, region: f32) -> Self {
-        let (o, d) = (lanes(ray.o.to_array()), lanes(ray.d.to_array()));
+    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, length: f32, floor: f32) -> Self {
+        // The fourth lanes hold something that nobody asks for. PERF: so each is one load (bench kernel).
+        let o = f32x4::new([ray.o.x, ray.o.y, ray.o.z, ray.d.x]);
+        let d = f32x4::new([ray.d.x, ray.d.y, ray.d.z, ray.t_min]);
         let size = d.abs();
-        let floor = f32x4::splat(greater(FLOOR * largest, finite_floor(ray, region)));
-        let slack = f32x4::splat(if ROBUST { SLACK * largest } else { 0.0 });
+        let floor = f32x4::splat(floor);
+        let slack = f32x4::splat(if ROBUST { SLACK * length } else { 0.0 });
         let origin_slack = f32x4::splat(if ROBUST { ORIGIN_SLACK } else { 0.0 });
         // PERF: in vectors, for ten divisions one after another are a tenth of a short ray (bench kernel).
         let near = (f32x4::ONE / (size + slack).fast_max(floor)).copysign(d);
@@ -60,27 +66,23 @@ impl Slab {
             near_c: -at_near - origin_slack * at_near.abs(),
             far_r: far,
             far_c: origin_slack * at_far.abs() - at_far,
-            near_side: [sign(ray.d.x), sign(ray.d.y), sign(ray.d.z)],
+            enters_above: [is_negative(ray.d.x), is_negative(ray.d.y), is_negative(ray.d.z)],
             o,
             behind: f32x4::ZERO,
             shift: 0.0,
         }
     }
 
-    /// Whether [`Slab::widen`] is needed: rays that begin behind their origin, and those so short that coordinates divided
-    /// by them overflow.
-    #[inline(always)]
-    pub(crate) fn is_odd(ray: &Ray, largest: f32, region: f32) -> bool {
-        ray.t_min < 0.0 || finite_floor(ray, region) > SLACK * largest
-    }
-
+    /// For rays that begin behind their origin, are very short, or so short that coordinates divided by them overflow.
     #[cold]
     #[inline(never)]
-    pub(crate) fn widen(&mut self, ray: &Ray, largest: f32, region: f32) {
-        let slack = SLACK * largest;
-        if finite_floor(ray, region) > slack {
+    pub(crate) fn odd<const ROBUST: bool>(ray: &Ray, length: f32, farthest: f32) -> Self {
+        let slack = SLACK * length;
+        let least = farthest / PRODUCT_MAX;
+        let mut slab = Self::new::<ROBUST>(ray, length, greater(greater(FLOOR * length, least), SHORTEST));
+        if length < SHORT || least > slack {
             // Boxes are never left.
-            (self.far_r, self.far_c) = (f32x4::ZERO, f32x4::splat(f32::MAX));
+            (slab.far_r, slab.far_c) = (f32x4::ZERO, f32x4::splat(f32::MAX));
         }
         if ray.t_min < 0.0 {
             // What is relative errs the other way behind the origin; no error there is larger than this.
@@ -88,11 +90,13 @@ impl Slab {
                 true => 4.0 * slack / size * -ray.t_min,
                 false => f32::MAX / 4.0,
             };
-            self.behind = lanes([of(ray.d.x.abs()), of(ray.d.y.abs()), of(ray.d.z.abs())]);
-            self.shift = -ray.t_min;
-            self.near_c += self.shift - self.behind * 2.0;
-            self.far_c += self.shift + self.behind * 2.0;
+            let [x, y, z] = [of(ray.d.x.abs()), of(ray.d.y.abs()), of(ray.d.z.abs())];
+            slab.behind = f32x4::new([x, y, z, z]);
+            slab.shift = -ray.t_min;
+            slab.near_c += slab.shift - slab.behind * 2.0;
+            slab.far_c += slab.shift + slab.behind * 2.0;
         }
+        slab
     }
 
     /// The stretch inside a box that was [`grown`]; it lies within what any node around the box grown again admits.
@@ -113,27 +117,49 @@ impl Slab {
     }
 }
 
-/// The largest component of a ray's direction, in magnitude. `None` for a ray that can hit nothing: a zero or non-finite
-/// direction or a non-finite origin.
+/// The sum of a direction's components in magnitude: its length, or up to 1.8 times that. `None` for a ray that can hit
+/// nothing: a zero or non-finite direction, or a non-finite origin.
 #[inline(always)]
-pub(crate) fn largest_component(ray: &Ray) -> Option<f32> {
-    let largest = greater(greater(ray.d.x.abs(), ray.d.y.abs()), ray.d.z.abs());
-    // 0 x is 0 only for finite x: one comparison instead of six.
-    let zeros = lanes(ray.o.to_array()) * 0.0 + lanes(ray.d.to_array()) * 0.0;
-    let finite = zeros.simd_eq(f32x4::ZERO).all();
-    (finite && largest >= SHORTEST).then_some(largest)
+pub(crate) fn length(ray: &Ray) -> Option<f32> {
+    let length = ray.d.x.abs() + ray.d.y.abs() + ray.d.z.abs();
+    // A sum is finite only if all of its terms are.
+    (SHORTEST <= length && length <= f32::MAX && away(ray) <= f32::MAX).then_some(length)
 }
 
-/// Products of reciprocals and coordinates stay finite if reciprocals are of at least this.
+/// The sum of the origin's coordinates in magnitude.
 #[inline(always)]
-fn finite_floor(ray: &Ray, region: f32) -> f32 {
-    let farthest = greater(greater(greater(ray.o.x.abs(), ray.o.y.abs()), ray.o.z.abs()), region);
-    farthest * (1.0 / PRODUCT_MAX)
+fn away(ray: &Ray) -> f32 {
+    ray.o.x.abs() + ray.o.y.abs() + ray.o.z.abs()
+}
+
+/// The farthest coordinate of a ray and things whose coordinates are at most `region`, or more.
+#[inline(always)]
+pub(crate) fn farthest(ray: &Ray, region: f32) -> f32 {
+    greater(away(ray), region)
+}
+
+/// The floor of [`Slab::new`] for rays that are not odd.
+#[inline(always)]
+pub(crate) fn floor(length: f32) -> f32 {
+    FLOOR * length
+}
+
+/// Whether a ray needs [`Slab::odd`].
+#[inline(always)]
+pub(crate) fn is_odd(ray: &Ray, length: f32, farthest: f32) -> bool {
+    // PERF: not short-circuited: one branch (bench kernel).
+    (ray.t_min < 0.0) | (length < SHORT) | is_far(length, farthest)
+}
+
+/// Whether edge functions and distances may overflow.
+#[inline(always)]
+pub(crate) fn is_far(length: f32, farthest: f32) -> bool {
+    farthest > T_MAX * length
 }
 
 #[inline(always)]
-fn sign(x: f32) -> usize {
-    (x.to_bits() >> 31) as usize
+fn is_negative(x: f32) -> bool {
+    x.to_bits() >> 31 != 0
 }
 
 /// A box around `b` by the slack that tests of boxes and triangles need; `extent` is the size of what it holds a part of.
@@ -162,7 +188,7 @@ pub(crate) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// Three coordinates in a vector; the fourth lane repeats the third.
+/// Three coordinates in a vector.
 #[inline(always)]
 fn lanes([x, y, z]: [f32; 3]) -> f32x4 {
     f32x4::new([x, y, z, z])
@@ -198,8 +224,8 @@ mod tests {
     }
     fn admits(o: [f32; 3], d: [f32; 3]) -> bool {
         let ray = Ray::new(o.into(), d.into());
-        let largest = largest_component(&ray).expect("valid ray");
-        Slab::new::<true>(&ray, largest, 1.0).window(&unit()).admits(0.0, f32::INFINITY)
+        let length = length(&ray).expect("valid ray");
+        Slab::new::<true>(&ray, length, floor(length)).window(&unit()).admits(0.0, f32::INFINITY)
     }
 
     #[test]
@@ -215,18 +241,17 @@ mod tests {
     #[test]
     fn impossible_rays_are_refused() {
         for d in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0], [1e-44, 0.0, 0.0]] {
-            assert!(largest_component(&Ray::new(Point3::ZERO, d.into())).is_none(), "{d:?}");
+            assert!(length(&Ray::new(Point3::ZERO, d.into())).is_none(), "{d:?}");
         }
         let far = Ray::new(Point3::splat(f32::INFINITY), Vector3::splat(1.0));
-        assert!(largest_component(&far).is_none());
+        assert!(length(&far).is_none());
     }
 
     #[test]
     fn huge_coordinates_give_numbers() {
         let ray = Ray::new(Point3::splat(1e30), Vector3::new(0.0, 1.0, -0.0));
-        let mut slab = Slab::new::<true>(&ray, 1.0, 1e32);
-        assert!(Slab::is_odd(&ray, 1.0, 1e32) && !Slab::is_odd(&ray, 1.0, 1e10));
-        slab.widen(&ray, 1.0, 1e32);
+        assert!(is_odd(&ray, 1.0, 1e32) && !is_odd(&ray, 1.0, 1e10));
+        let slab = Slab::odd::<true>(&ray, 1.0, 1e32);
         let window = slab.window(&grown(&Bounds3::new(Point3::splat(-1e32), Point3::splat(1e32)), 2e32));
         assert!(window.admits(0.0, f32::MAX), "{window:?}");
     }

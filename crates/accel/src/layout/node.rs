@@ -21,8 +21,8 @@ pub(crate) struct MovingNode<const N: usize> {
 
 /// How walks read nodes.
 pub(crate) trait BoxNode<V: Lanes>: Record {
-    /// The planes of an axis, `side` 0 lower, 1 upper, at the fraction `u` of the stretch.
-    fn plane(&self, token: V::Token, axis: usize, side: usize, u: V) -> V;
+    /// The lower or upper planes of an axis at the fraction `u` of the stretch.
+    fn plane(&self, token: V::Token, axis: usize, upper: bool, u: V) -> V;
     /// What a lane holds.
     fn link(&self, lane: u32) -> u32;
 }
@@ -32,8 +32,8 @@ where
     Self: Record,
 {
     #[inline(always)]
-    fn plane(&self, token: V::Token, axis: usize, side: usize, _: V) -> V {
-        V::load(token, &self.planes[axis][side & 1])
+    fn plane(&self, token: V::Token, axis: usize, upper: bool, _: V) -> V {
+        V::load(token, &self.planes[axis][usize::from(upper)])
     }
     #[inline(always)]
     fn link(&self, lane: u32) -> u32 {
@@ -46,9 +46,9 @@ where
     Self: Record,
 {
     #[inline(always)]
-    fn plane(&self, token: V::Token, axis: usize, side: usize, u: V) -> V {
-        let way = V::load(token, &self.ways[axis][side & 1]);
-        way.fused(u, V::load(token, &self.planes[axis][side & 1]))
+    fn plane(&self, token: V::Token, axis: usize, upper: bool, u: V) -> V {
+        let way = V::load(token, &self.ways[axis][usize::from(upper)]);
+        way.fused(u, V::load(token, &self.planes[axis][usize::from(upper)]))
     }
     #[inline(always)]
     fn link(&self, lane: u32) -> u32 {

@@ -16,7 +16,7 @@ pub(crate) struct BoxRay<V> {
     near_c: [V; 3],
     far_r: [V; 3],
     far_c: [V; 3],
-    near_side: [usize; 3],
+    enters_above: [bool; 3],
     t_min: V,
     /// How far the stretch of time has gone.
     u: V,
@@ -36,7 +36,7 @@ impl<V: Lanes> BoxRay<V> {
             near_c: splat(token, slab.near_c),
             far_r: splat(token, slab.far_r),
             far_c: splat(token, slab.far_c),
-            near_side: slab.near_side,
+            enters_above: slab.enters_above,
             t_min: V::splat(token, t_min),
             u: V::splat(token, u),
         }
@@ -44,13 +44,13 @@ impl<V: Lanes> BoxRay<V> {
 
     #[inline(always)]
     fn near<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
-        let plane = node.plane(token, axis, self.near_side[axis], self.u);
+        let plane = node.plane(token, axis, self.enters_above[axis], self.u);
         plane.fused(self.near_r[axis], self.near_c[axis])
     }
 
     #[inline(always)]
     fn far<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
-        let plane = node.plane(token, axis, self.near_side[axis] ^ 1, self.u);
+        let plane = node.plane(token, axis, !self.enters_above[axis], self.u);
         plane.fused(self.far_r[axis], self.far_c[axis])
     }
 

@@ -83,7 +83,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
             kernel,
             packet,
             &space.shear,
-            &reach,
+            reach,
             moment,
             &mut self.found,
         )

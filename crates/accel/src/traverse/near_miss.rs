@@ -14,7 +14,7 @@ use super::{Level, SCENE};
 use crate::{
     Accel,
     layout::{Link, MovingNode, MovingPacket, Node, NodeWriter, Packet, PacketRecord, Target},
-    slab::largest_component,
+    slab::length,
     tree::{Forest, Tree, Trees},
 };
 
@@ -43,7 +43,7 @@ pub(crate) fn near_misses(
     mask: u32,
     radius_of: &dyn Fn(f32) -> f32,
 ) -> Vec<NearMiss> {
-    if largest_component(ray).is_none() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
+    if length(ray).is_none() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
         return Vec::new();
     }
     let (o, d) = (ray.o.to_f64(), ray.d.to_f64());

@@ -5,7 +5,11 @@ use super::{Shear, exact};
 use crate::{
     lanes::{LaneMask, Lanes},
     layout::{PACKET, PacketRecord},
+    slab::greater,
 };
+
+/// Least product of two edge functions of which neither lost anything to underflow.
+const TINY: f32 = 1e-36;
 
 /// Where a ray may end: `[t_min, t_max]`, and the least `t` anything may count with.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +29,24 @@ pub(crate) struct Found<A> {
     pub(crate) v: A,
 }
 
-/// Coordinates of the three vertices by the ray's own axes.
-pub(crate) type Corners<V> = [[V; 3]; 3];
+/// The triangles of a group. Read again where few come, so that registers stay free where all go (bench kernel).
+pub(crate) trait Corners<V: Lanes>: Copy {
+    /// A coordinate of a vertex relative to the ray's origin, by the ray's own axes.
+    fn coordinate(self, token: V::Token, shear: &Shear, vertex: usize, axis: usize) -> V;
+    /// One triangle as it is.
+    fn triangle(self, lane: usize) -> [Point3; 3];
+    /// The same group, without what the compiler knows of it.
+    fn anew(self) -> Self;
+}
+
+/// Twice the areas between the ray and each edge, and what they say.
+struct Edges<V: Lanes> {
+    e: [V; 3],
+    least: V,
+    most: V,
+    /// The ray passes on the same side of all three, or through some.
+    inside: V::Mask,
+}
 
 /// The product of two edges less that of the other two: twice an area.
 #[inline(always)]
@@ -36,77 +56,117 @@ fn cross<V: Lanes>(a: [V; 2], b: [V; 2]) -> V {
 
 /// A vertex across the ray: its first two coordinates, sheared.
 #[inline(always)]
-fn across<V: Lanes>([x, y, z]: [V; 3], sx: V, sy: V) -> [V; 2] {
-    [x.sub(sx.mul(z)), y.sub(sy.mul(z))]
+fn across<V: Lanes>(token: V::Token, shear: &Shear, group: impl Corners<V>, vertex: usize, z: V) -> [V; 2] {
+    let x = group.coordinate(token, shear, vertex, 0);
+    let y = group.coordinate(token, shear, vertex, 1);
+    [x.sub(V::splat(token, shear.x).mul(z)), y.sub(V::splat(token, shear.y).mul(z))]
 }
 
-/// Bit `i` of the result: lane `i` is hit, as `found` says. `v` holds the vertices relative to the ray's origin, along its
-/// axes; `again(lane)` gives the triangle of a lane that needs f64.
+/// Bit `i` of the result: lane `i` is hit, as `found` says.
 #[inline(always)]
 pub(crate) fn test<V: Lanes, const ROBUST: bool>(
     token: V::Token,
     shear: &Shear,
-    reach: &Reach,
-    v: &Corners<V>,
-    again: impl FnMut(usize) -> [Point3; 3],
+    reach: Reach,
+    group: impl Corners<V>,
     found: &mut Found<V::Array>,
 ) -> u32 {
-    let (sx, sy) = (V::splat(token, shear.x), V::splat(token, shear.y));
-    let a = across(v[0], sx, sy);
-    let b = across(v[1], sx, sy);
-    let c = across(v[2], sx, sy);
-    let (e0, e1, e2) = (cross(b, c), cross(c, a), cross(a, b));
-    let (least, most) = (e0.min(e1).min(e2), e0.max(e1).max(e2));
+    let z0 = group.coordinate(token, shear, 0, 2);
+    let z1 = group.coordinate(token, shear, 1, 2);
+    let z2 = group.coordinate(token, shear, 2, 2);
+    let a = across(token, shear, group, 0, z0);
+    let b = across(token, shear, group, 1, z1);
+    let c = across(token, shear, group, 2, z2);
+    let e = [cross(b, c), cross(c, a), cross(a, b)];
+    let (least, most) = (e[0].min(e[1]).min(e[2]), e[0].max(e[1]).max(e[2]));
     // A sign that is not 0 is right; two different ones settle it whatever the third is.
     let zero = V::splat(token, 0.0);
     let inside = zero.le(least).or(most.le(zero));
     if inside.bits() == 0 {
         return 0;
     }
-    let sum = e0.add(e1).add(e2);
-    let reciprocal = V::splat(token, 1.0).div(sum);
-    let size = sum.abs();
-    let no_edge = zero.lt(least).or(most.lt(zero));
-    let is_number = V::splat(token, f32::MIN_POSITIVE).le(size).and(size.le(V::splat(token, f32::MAX)));
-    let ordinary = no_edge.and(is_number);
-    let (w0, w1, w2) = (e0.mul(reciprocal), e1.mul(reciprocal), e2.mul(reciprocal));
-    let sz = V::splat(token, shear.z);
-    let mut t = w0.mul(v[0][2]).add(w1.mul(v[1][2])).add(w2.mul(v[2][2])).mul(sz);
-    let (t_min, t_max) = (V::splat(token, reach.t_min), V::splat(token, reach.t_max));
-    let mut hits = inside.and(ordinary).and(t_min.le(t)).and(t.le(t_max));
-    let mut odd = if ROBUST { inside.bits() & !ordinary.bits() } else { 0 };
-    if hits.bits() | odd == 0 {
-        return 0;
-    }
-    if ROBUST {
-        let bound = error_bound(token, [a, b, c], [v[0][2], v[1][2], v[2][2]], reciprocal, sz);
-        // A bound that overflowed says nothing.
-        odd |= hits.bits() & !bound.le(V::splat(token, f32::MAX)).bits();
-        hits = hits.and(bound.lt(t.abs()));
-        let [entry, exit] = window(token, shear, v);
-        t = t.max(entry.max(V::splat(token, reach.floor)));
-        hits = hits.and(t_min.le(exit)).and(t.le(t_max));
-    }
-    t.store(&mut found.t);
-    w1.store(&mut found.u);
-    w2.store(&mut found.v);
-    if odd != 0 { mend(shear, reach, odd, hits.bits(), again, found) } else { hits.bits() }
+    let edges = Edges { e, least, most, inside };
+    meet::<V, ROBUST>(token, shear, reach, group.anew(), [z0, z1, z2], &edges, found)
 }
 
-/// Tests the lanes of `odd` in f64.
+/// Where the lanes that the ray passes through are met.
+#[inline(always)]
+fn meet<V: Lanes, const ROBUST: bool>(
+    token: V::Token,
+    shear: &Shear,
+    reach: Reach,
+    group: impl Corners<V>,
+    z: [V; 3],
+    edges: &Edges<V>,
+    found: &mut Found<V::Array>,
+) -> u32 {
+    let Edges { e, least, most, inside } = edges;
+    let sz = V::splat(token, shear.z);
+    let z = [z[0].mul(sz), z[1].mul(sz), z[2].mul(sz)];
+    let reciprocal = V::splat(token, 1.0).div(e[0].add(e[1]).add(e[2]));
+    let mut t = e[0].mul(z[0]).add(e[1].mul(z[1])).add(e[2].mul(z[2])).mul(reciprocal);
+    let (t_min, t_max) = (V::splat(token, reach.t_min), V::splat(token, reach.t_max));
+    let (u, v) = (e[1].mul(reciprocal), e[2].mul(reciprocal));
+    u.store(&mut found.u);
+    v.store(&mut found.v);
+    // An edge exactly on the ray, or numbers so small or large that products may lose it all, are for f64.
+    let spread = least.mul(*most);
+    let ordinary = V::splat(token, TINY).le(spread).and(spread.le(V::splat(token, shear.huge)));
+    let within = inside.and(ordinary).and(t_min.le(t));
+    if !ROBUST {
+        t = t.max(V::splat(token, reach.floor));
+        t.store(&mut found.t);
+        return within.and(t.le(t_max)).bits();
+    }
+    t = t.max(entry(token, shear, group)).max(V::splat(token, reach.floor));
+    t.store(&mut found.t);
+    let hits = within.and(t.le(t_max));
+    // In front with all its vertices: so is the hit, whatever the rounding.
+    let front = V::splat(token, greater(reach.t_min, 0.0)).lt(z[0].min(z[1]).min(z[2]));
+    let (bits, ahead) = (hits.bits(), front.bits());
+    let odd = inside.bits() & !ordinary.bits();
+    if bits & !ahead | odd == 0 {
+        return bits;
+    }
+    let kept = keep::<V>(token, shear, reach, group.anew(), reciprocal, t);
+    settle(shear, reach, (bits & (ahead | kept), odd), |lane| group.triangle(lane), found)
+}
+
+/// Of triangles that reach back beyond where the ray begins: which hits are farther than the bound on their error, on
+/// triangles whose box the ray has not left before it begins.
+#[inline(always)]
+fn keep<V: Lanes>(
+    token: V::Token,
+    shear: &Shear,
+    reach: Reach,
+    group: impl Corners<V>,
+    reciprocal: V,
+    t: V,
+) -> u32 {
+    let z0 = group.coordinate(token, shear, 0, 2);
+    let z1 = group.coordinate(token, shear, 1, 2);
+    let z2 = group.coordinate(token, shear, 2, 2);
+    let a = across(token, shear, group, 0, z0);
+    let b = across(token, shear, group, 1, z1);
+    let c = across(token, shear, group, 2, z2);
+    let bound = error_bound(token, [a, b, c], [z0, z1, z2], reciprocal, V::splat(token, shear.z));
+    let exit = exit(token, shear, group);
+    bound.lt(t.abs()).and(V::splat(token, reach.t_min).le(exit)).bits()
+}
+
+/// Tests the lanes of `odd` in f64; the others stay hit as `bits` says.
 #[cold]
 #[inline(never)]
-fn mend<A: AsMut<[f32]>>(
+fn settle<A: AsMut<[f32]>>(
     shear: &Shear,
-    reach: &Reach,
-    odd: u32,
-    mut bits: u32,
-    mut again: impl FnMut(usize) -> [Point3; 3],
+    reach: Reach,
+    (mut bits, odd): (u32, u32),
+    triangle: impl Fn(usize) -> [Point3; 3],
     found: &mut Found<A>,
 ) -> u32 {
     for lane in (0..PACKET).filter(|lane| odd >> lane & 1 != 0) {
         bits &= !(1 << lane);
-        if let Some(hit) = exact(shear, &again(lane), reach) {
+        if let Some(hit) = exact(shear, &triangle(lane), &reach) {
             bits |= 1 << lane;
             found.t.as_mut()[lane] = hit.t;
             found.u.as_mut()[lane] = hit.weights[1];
@@ -135,39 +195,65 @@ fn error_bound<V: Lanes>(token: V::Token, [a, b, c]: [[V; 2]; 3], z: [V; 3], rec
     weights.mul(z).mul(sz.abs()).mul(V::splat(token, 6.0))
 }
 
-/// Where the ray meets the planes around the triangle along one of its first two axes.
+/// Where the ray meets the planes through each vertex along one of its first two axes; 0 along an axis that it hardly moves
+/// along.
 #[inline(always)]
-fn along<V: Lanes>(token: V::Token, shear: &Shear, v: &Corners<V>, axis: usize) -> [V; 2] {
+fn planes<V: Lanes>(token: V::Token, shear: &Shear, group: impl Corners<V>, axis: usize) -> [V; 3] {
     let r = V::splat(token, shear.reciprocal[axis]);
-    let slack = V::splat(token, shear.slack[axis]);
-    let (a, b, c) = (v[0][axis].mul(r), v[1][axis].mul(r), v[2][axis].mul(r));
-    [a.min(b).min(c).sub(slack), a.max(b).max(c).add(slack)]
-}
-
-/// Where the ray enters and leaves the box around the triangle, by the two axes that are not its main one. Seen edge-on,
-/// rounding may take `t` out of the box, and a box that is culled would have held a hit: so hits count from the entry.
-/// Along the ray's main axis the weighted mean sees to it; along an axis that the ray hardly moves along no box excludes
-/// anything.
-#[inline(always)]
-fn window<V: Lanes>(token: V::Token, shear: &Shear, v: &Corners<V>) -> [V; 2] {
-    let [x0, x1] = along(token, shear, v, 0);
-    let [y0, y1] = along(token, shear, v, 1);
-    [x0.max(y0), x1.min(y1)]
-}
-
-/// One vertex of all triangles of a packet, relative to the ray's origin.
-#[inline(always)]
-fn vertex<V, R>(token: V::Token, packet: &R, shear: &Shear, moment: f32, vertex: usize) -> [V; 3]
-where
-    V: Lanes<Array = [f32; PACKET]>,
-    R: PacketRecord,
-{
-    let [x, y, z] = shear.axes;
     [
-        packet.coordinate::<V>(token, vertex, x, moment).sub(V::splat(token, shear.o[0])),
-        packet.coordinate::<V>(token, vertex, y, moment).sub(V::splat(token, shear.o[1])),
-        packet.coordinate::<V>(token, vertex, z, moment).sub(V::splat(token, shear.o[2])),
+        group.coordinate(token, shear, 0, axis).mul(r),
+        group.coordinate(token, shear, 1, axis).mul(r),
+        group.coordinate(token, shear, 2, axis).mul(r),
     ]
+}
+
+/// Where the ray enters the box around the triangle, by the two axes that are not its main one. Seen edge-on, rounding may
+/// take `t` out of the box, and a box that is culled would have held a hit: so hits count from the entry. Along the ray's
+/// main axis the weighted mean sees to it; along an axis that the ray hardly moves along no box excludes anything.
+#[inline(always)]
+fn entry<V: Lanes>(token: V::Token, shear: &Shear, group: impl Corners<V>) -> V {
+    let [a, b, c] = planes(token, shear, group, 0);
+    let x = a.min(b).min(c).sub(V::splat(token, shear.slack[0]));
+    let [a, b, c] = planes(token, shear, group, 1);
+    x.max(a.min(b).min(c).sub(V::splat(token, shear.slack[1])))
+}
+
+/// Where it leaves that box.
+#[inline(always)]
+fn exit<V: Lanes>(token: V::Token, shear: &Shear, group: impl Corners<V>) -> V {
+    let [a, b, c] = planes(token, shear, group, 0);
+    let x = a.max(b).max(c).add(V::splat(token, shear.slack[0]));
+    let [a, b, c] = planes(token, shear, group, 1);
+    x.min(a.max(b).max(c).add(V::splat(token, shear.slack[1])))
+}
+
+/// A packet at a moment.
+struct Packed<'p, R> {
+    packet: &'p R,
+    moment: f32,
+}
+
+impl<R> Clone for Packed<'_, R> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<R> Copy for Packed<'_, R> {}
+
+impl<V: Lanes<Array = [f32; PACKET]>, R: PacketRecord> Corners<V> for Packed<'_, R> {
+    #[inline(always)]
+    fn coordinate(self, token: V::Token, shear: &Shear, vertex: usize, axis: usize) -> V {
+        let x = self.packet.coordinate::<V>(token, vertex, shear.axes[axis], self.moment);
+        x.sub(V::splat(token, shear.o[axis]))
+    }
+    fn triangle(self, lane: usize) -> [Point3; 3] {
+        self.packet.triangle(lane, self.moment)
+    }
+    #[inline(always)]
+    fn anew(self) -> Self {
+        Self { packet: std::hint::black_box(self.packet), moment: self.moment }
+    }
 }
 
 /// The hits of a packet of eight.
@@ -176,7 +262,7 @@ pub(crate) fn packet<V, R, const ROBUST: bool>(
     token: V::Token,
     packet: &R,
     shear: &Shear,
-    reach: &Reach,
+    reach: Reach,
     moment: f32,
     found: &mut Found<[f32; PACKET]>,
 ) -> u32
@@ -184,10 +270,5 @@ where
     V: Lanes<Array = [f32; PACKET]>,
     R: PacketRecord,
 {
-    let v = [
-        vertex(token, packet, shear, moment, 0),
-        vertex(token, packet, shear, moment, 1),
-        vertex(token, packet, shear, moment, 2),
-    ];
-    test::<V, ROBUST>(token, shear, reach, &v, |lane| packet.triangle(lane, moment), found)
+    test::<V, ROBUST>(token, shear, reach, Packed { packet, moment }, found)
 }

@@ -16,10 +16,16 @@ use wide::f32x4;
 use crate::{layout::Axis, slab::greater};
 
 pub use cramer::cramer;
+use lanes::Corners;
 pub(crate) use lanes::{Found, Reach, packet};
 
 /// Directions smaller than this times the largest component move a ray along no axis: boxes cannot exclude it there.
 const HARDLY: f32 = 1.0 / (1 << 20) as f32;
+
+/// With edge functions below its root and `t` below [`T_MAX`] products stay below the largest number.
+const HUGE: f32 = 1e36;
+/// Largest distance of coordinates in multiples of a ray's direction that f32 is trusted with.
+pub(crate) const T_MAX: f32 = 1e19;
 
 /// The two other axes and the longest, by the longest: a turn that keeps right-handedness.
 const AXES: [[Axis; 3]; 3] =
@@ -40,12 +46,14 @@ pub struct Shear {
     reciprocal: [f32; 2],
     /// 0, or infinity for an axis along which the ray hardly moves.
     slack: [f32; 2],
+    /// Largest product of two edge functions that f32 is trusted with.
+    huge: f32,
 }
 
 impl Shear {
     /// `None` for a zero or non-finite direction, or one so short that its reciprocal is not finite.
     pub fn new(ray: &Ray) -> Option<Self> {
-        crate::slab::largest_component(ray).map(|_| Self::of_valid(ray))
+        crate::slab::length(ray).map(|_| Self::of_valid(ray))
     }
 
     /// Of a ray that has a direction.
@@ -59,21 +67,28 @@ impl Shear {
         let (o, d) = (ray.o.to_array(), ray.d.to_array());
         let o = [o[axes[0] as usize], o[axes[1] as usize], o[axes[2] as usize]];
         let d = [d[axes[0] as usize], d[axes[1] as usize], d[axes[2] as usize]];
-        let hardly = HARDLY * d[2].abs();
-        let (moves_x, moves_y) = (d[0].abs() >= hardly, d[1].abs() >= hardly);
+        let d = f32x4::new([d[0], d[1], d[2], 1.0]);
+        let long = f32x4::splat(d.as_array()[2]);
         // PERF: one division of three (bench kernel).
-        let r = (f32x4::ONE / f32x4::new([d[0], d[1], d[2], 1.0])).to_array();
-        let slack = |moves: bool| if moves { 0.0 } else { f32::INFINITY };
-        let ratios = (f32x4::new([d[0], d[1], 0.0, 0.0]) / f32x4::splat(d[2])).to_array();
+        let (r, ratios) = ((f32x4::ONE / d).to_array(), (d / long).to_array());
+        let moves = d.abs().simd_ge(long.abs() * HARDLY);
+        let crossed = (f32x4::from(r) & moves).to_array();
+        let slack = (f32x4::splat(f32::INFINITY) & !moves).to_array();
         Self {
             o,
             axes,
             x: ratios[0],
             y: ratios[1],
             z: r[2],
-            reciprocal: [if moves_x { r[0] } else { 0.0 }, if moves_y { r[1] } else { 0.0 }],
-            slack: [slack(moves_x), slack(moves_y)],
+            reciprocal: [crossed[0], crossed[1]],
+            slack: [slack[0], slack[1]],
+            huge: HUGE,
         }
+    }
+
+    /// Everything is taken again in f64: for rays among coordinates so large that products overflow.
+    pub(crate) fn distrust(&mut self) {
+        self.huge = 0.0;
     }
 
     /// A point relative to the origin, by `axes`.
@@ -91,15 +106,39 @@ pub struct TriangleHit {
     pub weights: [f32; 3],
 }
 
-/// Where the ray of `shear` meets the triangle, if at some `t` in `[t_min, t_max]` that is larger in magnitude than its
-/// own rounding error bound. Degenerate triangles and those seen exactly edge-on are never hit.
+/// Where the ray of `shear` meets the triangle, if at some `t` in `[t_min, t_max]`. Of a triangle that reaches back beyond
+/// where the ray begins, `t` must be larger in magnitude than the bound on its own rounding error. Degenerate triangles and
+/// those seen exactly edge-on are never hit.
 pub fn intersect(shear: &Shear, triangle: &[Point3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
     let reach = Reach { t_min, t_max, floor: f32::NEG_INFINITY };
-    let mut found = Found { t: [0.0], u: [0.0], v: [0.0] };
     let relative = triangle.each_ref().map(|p| shear.relative(p));
-    let hit = lanes::test::<f32, true>((), shear, &reach, &relative, |_| *triangle, &mut found);
+    let is_far = |v: &[f32; 3]| v.iter().any(|x| (x * shear.z).abs() > T_MAX);
+    if relative.iter().any(is_far) {
+        return exact(shear, triangle, &reach);
+    }
+    let mut found = Found { t: [0.0], u: [0.0], v: [0.0] };
+    let hit = lanes::test::<f32, true>((), shear, reach, One { triangle, relative: &relative }, &mut found);
     let (u, v) = (found.u[0], found.v[0]);
     (hit != 0).then_some(TriangleHit { t: found.t[0], weights: [1.0 - u - v, u, v] })
+}
+
+/// One triangle as a group.
+#[derive(Clone, Copy)]
+struct One<'t> {
+    triangle: &'t [Point3; 3],
+    relative: &'t [[f32; 3]; 3],
+}
+
+impl Corners<f32> for One<'_> {
+    fn coordinate(self, (): (), _: &Shear, vertex: usize, axis: usize) -> f32 {
+        self.relative[vertex][axis]
+    }
+    fn triangle(self, _: usize) -> [Point3; 3] {
+        *self.triangle
+    }
+    fn anew(self) -> Self {
+        self
+    }
 }
 
 /// The same in f64, from the projected vertices: the signs of the edge functions are exact.
@@ -121,12 +160,19 @@ fn exact(shear: &Shear, triangle: &[Point3; 3], reach: &Reach) -> Option<Triangl
     let scale = f64::from(shear.z);
     let t = ((weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) * scale) as f32;
     let within = |t: f32| t.is_finite() && reach.t_min <= t && t <= reach.t_max;
-    if !within(t) || f64::from(t.abs()) <= error_bound(&projected, reciprocal, scale) {
+    if !within(t) {
         return None;
     }
     let [entry, exit] = window(shear, &relative);
+    let begin = reach.t_min.max(0.0);
+    if relative.iter().any(|v| v[2] * shear.z <= begin) {
+        let is_noise = f64::from(t.abs()) <= error_bound(&projected, reciprocal, scale);
+        if is_noise || exit < reach.t_min {
+            return None;
+        }
+    }
     let t = t.max(entry).max(reach.floor);
-    (t <= reach.t_max && exit >= reach.t_min).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
+    (t <= reach.t_max).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
 }
 
 /// As `lanes::error_bound`, in f64, so that it cannot overflow.
@@ -136,7 +182,7 @@ fn error_bound(projected: &[[f64; 3]; 3], reciprocal: f64, scale: f64) -> f64 {
     6.0 * z * (g(1) + (g(12) * x * y + g(5) * z * (x + y)) * reciprocal.abs()) * scale.abs()
 }
 
-/// As `lanes::window`.
+/// As `lanes::entry` and `lanes::exit`.
 fn window(shear: &Shear, relative: &[[f32; 3]; 3]) -> [f32; 2] {
     let (mut entry, mut exit) = (f32::MIN, f32::MAX);
     for axis in 0..2 {
