@@ -22,6 +22,8 @@ pub(crate) struct Instance {
     pub(crate) seen: Visibility,
     /// It stands still and left and right change places.
     pub(crate) mirrors: bool,
+    /// Its hits are on triangles that do not move, known to callers as their tree knows them.
+    pub(crate) is_plain: bool,
     /// That its box is finite.
     pub(crate) is_bounded: bool,
     /// Box in render space around everything, over all time, grown once by the slack of box tests.

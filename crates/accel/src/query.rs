@@ -1,5 +1,5 @@
 //! Asking for hits.
-use durer_core::math::{Ray, Vector3};
+use durer_core::math::{Point3, Ray, Vector3};
 
 use crate::{
     Accel, Engine, Hit, NearMiss, NoTraversalProbe, NoUserGeometry, Precision, TraversalProbe, UserGeometry,
@@ -194,40 +194,54 @@ impl<'a> Cx<'a> {
     fn closest<W: Watch>(&self, ray: &Ray, watch: &mut W) -> Option<Hit> {
         let t_max = end(ray)?;
         let mut best = Best { t: t_max, u: 0.0, v: 0.0, place: Place::NOWHERE };
-        self.each(ray, |level| {
-            if self.exhaustive {
-                exhaustive_nearest(self, level, &mut best, watch);
-            } else {
-                dispatch!(self.accel, kernel, ROBUST =>
-                    kernel.nearest::<W, ROBUST>(self, level, &mut best, watch));
-            }
-            false
-        });
+        self.nearest_in(&self.accel.scene, ray, &mut best, watch);
+        if self.accel.movers.is_some() {
+            self.nearest_mover(ray, &mut best, watch);
+        }
         self.hit(ray, &best)
     }
 
     #[inline(never)]
     fn any<W: Watch>(&self, ray: &Ray, watch: &mut W) -> bool {
         let Some(t_max) = end(ray) else { return false };
-        self.each(ray, |level| {
-            if self.exhaustive {
-                exhaustive_blocked(self, level, t_max, watch)
-            } else {
-                dispatch!(self.accel, kernel, ROBUST =>
-                    kernel.blocked::<W, ROBUST>(self, level, t_max, watch))
-            }
-        })
-    }
-
-    /// Runs `visit` on the trees of the scene until it says true.
-    #[inline(always)]
-    fn each(&self, ray: &Ray, mut visit: impl FnMut(&Level<'_>) -> bool) -> bool {
-        let mut level = |forest: &Forest| visit(&Level { ray, forest, instance: SCENE, floor: f32::MIN });
-        let found = level(&self.accel.scene);
-        match &self.accel.movers {
-            Some(movers) if !found || self.exhaustive => level(&movers.forest) || found,
+        let found = self.blocked_in(&self.accel.scene, ray, t_max, watch);
+        match self.accel.movers {
+            Some(_) if !found || self.exhaustive => self.mover_blocks(ray, t_max, watch) || found,
             _ => found,
         }
+    }
+
+    /// Offers the hits in a tree of the scene.
+    #[inline(always)]
+    fn nearest_in<W: Watch>(&self, forest: &Forest, ray: &Ray, best: &mut Best, watch: &mut W) {
+        let level = Level { ray, forest, instance: SCENE, floor: f32::MIN };
+        if self.exhaustive {
+            exhaustive_nearest(self, &level, best, watch);
+        } else {
+            dispatch!(self.accel, kernel, ROBUST => kernel.nearest::<W, ROBUST>(self, &level, best, watch));
+        }
+    }
+
+    #[inline(always)]
+    fn blocked_in<W: Watch>(&self, forest: &Forest, ray: &Ray, t_max: f32, watch: &mut W) -> bool {
+        let level = Level { ray, forest, instance: SCENE, floor: f32::MIN };
+        if self.exhaustive {
+            exhaustive_blocked(self, &level, t_max, watch)
+        } else {
+            dispatch!(self.accel, kernel, ROBUST => kernel.blocked::<W, ROBUST>(self, &level, t_max, watch))
+        }
+    }
+
+    #[inline(never)]
+    fn nearest_mover<W: Watch>(&self, ray: &Ray, best: &mut Best, watch: &mut W) {
+        if let Some(movers) = &self.accel.movers {
+            self.nearest_in(&movers.forest, ray, best, watch);
+        }
+    }
+
+    #[inline(never)]
+    fn mover_blocks<W: Watch>(&self, ray: &Ray, t_max: f32, watch: &mut W) -> bool {
+        self.accel.movers.as_ref().is_some_and(|movers| self.blocked_in(&movers.forest, ray, t_max, watch))
     }
 
     /// What callers get to see.
@@ -238,22 +252,35 @@ impl<'a> Cx<'a> {
             return None;
         }
         let (instance, prim) = self.primitive(place.instance, place.id);
-        let n_g = self.normal(ray, place, instance, prim);
+        let owner = &self.accel.instances[instance as usize];
+        if owner.is_plain {
+            let own = || self.accel.geometries[owner.geometry.index()].forest.as_ref();
+            let forest = if place.instance == SCENE { Some(&self.accel.scene) } else { own() };
+            if let Some(Forest { trees: Trees::Still(tree), .. }) = forest {
+                let n_g = normal(tree.pages.get::<Packet>(place.row).triangle(place.lane as usize, 0.0));
+                return Some(Hit { t: best.t, instance, prim, u: best.u, v: best.v, n_g });
+            }
+        }
+        Some(self.other_hit(ray, best, instance, prim))
+    }
+
+    /// What callers get to see of quads, shapes, and what is moved.
+    #[inline(never)]
+    fn other_hit(&self, ray: &Ray, best: &Best, instance: u32, prim: u32) -> Hit {
+        let n_g = self.normal(ray, &best.place, instance, prim);
         let (prim, u, v) = self.accel.called(instance, prim, best.u, best.v);
-        Some(Hit { t: best.t, instance, prim, u, v, n_g })
+        Hit { t: best.t, instance, prim, u, v, n_g }
     }
 
     /// The normal of what is hit in its instance's object space.
-    #[inline(always)]
     fn normal(&self, ray: &Ray, place: &Place, instance: u32, prim: u32) -> Vector3 {
         if place.row == Place::NO_PACKET {
             return self.shape_normal(instance, prim, ray);
         }
         let owner = &self.accel.instances[instance as usize];
-        let of = |[a, b, c]: [durer_core::math::Point3; 3]| (b - a).cross(c - a);
         let lane = place.lane as usize;
         if place.instance == SCENE {
-            let n = of(self.accel.scene.trees()[0].pages.get::<Packet>(place.row).triangle(lane, 0.0));
+            let n = normal(self.accel.scene.trees()[0].pages.get::<Packet>(place.row).triangle(lane, 0.0));
             return match owner.pose.at(ray.time) {
                 None => n,
                 // The tree holds the mesh where it is placed, and turned round if that is mirrored.
@@ -264,13 +291,18 @@ impl<'a> Cx<'a> {
             return Vector3::ZERO;
         };
         match &forest.trees {
-            Trees::Still(tree) => of(tree.pages.get::<Packet>(place.row).triangle(lane, 0.0)),
+            Trees::Still(tree) => normal(tree.pages.get::<Packet>(place.row).triangle(lane, 0.0)),
             Trees::Moving { times, trees } => {
                 let at = durer_core::math::Segment::at(ray.time, times.len(), |i| times[i]);
-                of(trees[at.key].pages.get::<MovingPacket>(place.row).triangle(lane, at.u))
+                normal(trees[at.key].pages.get::<MovingPacket>(place.row).triangle(lane, at.u))
             }
         }
     }
+}
+
+#[inline(always)]
+fn normal([a, b, c]: [Point3; 3]) -> Vector3 {
+    (b - a).cross(c - a)
 }
 
 /// Where the ray ends; `None` if that is before it begins. A finite end keeps infinity, which a shape's division by 0

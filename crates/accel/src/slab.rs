@@ -47,12 +47,16 @@ pub(crate) struct Slab {
 }
 
 impl Slab {
-    /// For a ray of this [`length`] with no reciprocal larger than that of `floor`.
+    /// For rays that are not odd.
     #[inline(always)]
-    pub(crate) fn new<const ROBUST: bool>(ray: &Ray, length: f32, floor: f32) -> Self {
-        // The fourth lanes hold something that nobody asks for. PERF: so each is one load (bench kernel).
-        let o = f32x4::new([ray.o.x, ray.o.y, ray.o.z, ray.d.x]);
-        let d = f32x4::new([ray.d.x, ray.d.y, ray.d.z, ray.t_min]);
+    pub(crate) fn new<const ROBUST: bool>(ray: &Measured) -> Self {
+        Self::with_floor::<ROBUST>(ray, FLOOR * ray.length)
+    }
+
+    /// With no reciprocal larger than that of `floor`.
+    #[inline(always)]
+    fn with_floor<const ROBUST: bool>(ray: &Measured, floor: f32) -> Self {
+        let (o, d, length) = (ray.o, ray.d, ray.length);
         let size = d.abs();
         let floor = f32x4::splat(floor);
         let slack = f32x4::splat(if ROBUST { SLACK * length } else { 0.0 });
@@ -61,12 +65,13 @@ impl Slab {
         let near = (f32x4::ONE / (size + slack).fast_max(floor)).copysign(d);
         let far = (f32x4::ONE / (size - slack).fast_max(floor)).copysign(d);
         let (at_near, at_far) = (o * near, o * far);
+        let [x, y, z, _] = d.to_array();
         Self {
             near_r: near,
             near_c: -at_near - origin_slack * at_near.abs(),
             far_r: far,
             far_c: origin_slack * at_far.abs() - at_far,
-            enters_above: [is_negative(ray.d.x), is_negative(ray.d.y), is_negative(ray.d.z)],
+            enters_above: [is_negative(x), is_negative(y), is_negative(z)],
             o,
             behind: f32x4::ZERO,
             shift: 0.0,
@@ -76,10 +81,12 @@ impl Slab {
     /// For rays that begin behind their origin, are very short, or so short that coordinates divided by them overflow.
     #[cold]
     #[inline(never)]
-    pub(crate) fn odd<const ROBUST: bool>(ray: &Ray, length: f32, farthest: f32) -> Self {
+    pub(crate) fn odd<const ROBUST: bool>(ray: &Measured, region: f32) -> Self {
+        let length = ray.length;
         let slack = SLACK * length;
-        let least = farthest / PRODUCT_MAX;
-        let mut slab = Self::new::<ROBUST>(ray, length, greater(greater(FLOOR * length, least), SHORTEST));
+        let least = greater(ray.away, region) / PRODUCT_MAX;
+        let floor = greater(greater(FLOOR * length, least), SHORTEST);
+        let mut slab = Self::with_floor::<ROBUST>(ray, floor);
         if length < SHORT || least > slack {
             // Boxes are never left.
             (slab.far_r, slab.far_c) = (f32x4::ZERO, f32x4::splat(f32::MAX));
@@ -90,7 +97,7 @@ impl Slab {
                 true => 4.0 * slack / size * -ray.t_min,
                 false => f32::MAX / 4.0,
             };
-            let [x, y, z] = [of(ray.d.x.abs()), of(ray.d.y.abs()), of(ray.d.z.abs())];
+            let [x, y, z] = [0, 1, 2].map(|axis| of(ray.d.as_array()[axis].abs()));
             slab.behind = f32x4::new([x, y, z, z]);
             slab.shift = -ray.t_min;
             slab.near_c += slab.shift - slab.behind * 2.0;
@@ -117,44 +124,52 @@ impl Slab {
     }
 }
 
-/// The sum of a direction's components in magnitude: its length, or up to 1.8 times that. `None` for a ray that can hit
-/// nothing: a zero or non-finite direction, or a non-finite origin.
-#[inline(always)]
-pub(crate) fn length(ray: &Ray) -> Option<f32> {
-    let length = ray.d.x.abs() + ray.d.y.abs() + ray.d.z.abs();
-    // A sum is finite only if all of its terms are.
-    (SHORTEST <= length && length <= f32::MAX && away(ray) <= f32::MAX).then_some(length)
+/// A ray in lanes, and how far it is from everything. The fourth lanes hold something that nobody asks for. PERF: so origin
+/// and direction are one load each (bench kernel).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measured {
+    pub(crate) o: f32x4,
+    pub(crate) d: f32x4,
+    t_min: f32,
+    /// The sum of the direction's components in magnitude: its length, or up to 1.8 times that.
+    length: f32,
+    /// The same of the origin's.
+    away: f32,
 }
 
-/// The sum of the origin's coordinates in magnitude.
-#[inline(always)]
-fn away(ray: &Ray) -> f32 {
-    ray.o.x.abs() + ray.o.y.abs() + ray.o.z.abs()
+impl Measured {
+    #[inline(always)]
+    pub(crate) fn of(ray: &Ray) -> Self {
+        let o = f32x4::new([ray.o.x, ray.o.y, ray.o.z, ray.d.x]);
+        let d = f32x4::new([ray.d.x, ray.d.y, ray.d.z, ray.t_min]);
+        Self { o, d, t_min: ray.t_min, length: sum(d), away: sum(o) }
+    }
+
+    /// False for a ray that can hit nothing: a zero or non-finite direction, or a non-finite origin.
+    #[inline(always)]
+    pub(crate) fn is_valid(&self) -> bool {
+        // A sum is finite only if all of its terms are. PERF: not short-circuited (bench kernel).
+        (SHORTEST <= self.length) & (self.length + self.away <= f32::MAX)
+    }
+
+    /// Whether a ray needs [`Slab::odd`] among things whose coordinates are at most `region`.
+    #[inline(always)]
+    pub(crate) fn is_odd(&self, region: f32) -> bool {
+        (self.t_min < 0.0) | (self.length < SHORT) | self.is_far(region)
+    }
+
+    /// Whether edge functions and distances may overflow.
+    #[inline(always)]
+    pub(crate) fn is_far(&self, region: f32) -> bool {
+        greater(self.away, region) > T_MAX * self.length
+    }
 }
 
-/// The farthest coordinate of a ray and things whose coordinates are at most `region`, or more.
+/// The sum of three coordinates in magnitude.
 #[inline(always)]
-pub(crate) fn farthest(ray: &Ray, region: f32) -> f32 {
-    greater(away(ray), region)
-}
-
-/// The floor of [`Slab::new`] for rays that are not odd.
-#[inline(always)]
-pub(crate) fn floor(length: f32) -> f32 {
-    FLOOR * length
-}
-
-/// Whether a ray needs [`Slab::odd`].
-#[inline(always)]
-pub(crate) fn is_odd(ray: &Ray, length: f32, farthest: f32) -> bool {
-    // PERF: not short-circuited: one branch (bench kernel).
-    (ray.t_min < 0.0) | (length < SHORT) | is_far(length, farthest)
-}
-
-/// Whether edge functions and distances may overflow.
-#[inline(always)]
-pub(crate) fn is_far(length: f32, farthest: f32) -> bool {
-    farthest > T_MAX * length
+fn sum(v: f32x4) -> f32 {
+    let [x, y, z, _] = v.abs().to_array();
+    x + y + z
 }
 
 #[inline(always)]
@@ -224,8 +239,9 @@ mod tests {
     }
     fn admits(o: [f32; 3], d: [f32; 3]) -> bool {
         let ray = Ray::new(o.into(), d.into());
-        let length = length(&ray).expect("valid ray");
-        Slab::new::<true>(&ray, length, floor(length)).window(&unit()).admits(0.0, f32::INFINITY)
+        let measured = Measured::of(&ray);
+        assert!(measured.is_valid());
+        Slab::new::<true>(&measured).window(&unit()).admits(0.0, f32::INFINITY)
     }
 
     #[test]
@@ -241,17 +257,18 @@ mod tests {
     #[test]
     fn impossible_rays_are_refused() {
         for d in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0], [1e-44, 0.0, 0.0]] {
-            assert!(length(&Ray::new(Point3::ZERO, d.into())).is_none(), "{d:?}");
+            assert!(!Measured::of(&Ray::new(Point3::ZERO, d.into())).is_valid(), "{d:?}");
         }
         let far = Ray::new(Point3::splat(f32::INFINITY), Vector3::splat(1.0));
-        assert!(length(&far).is_none());
+        assert!(!Measured::of(&far).is_valid());
     }
 
     #[test]
     fn huge_coordinates_give_numbers() {
         let ray = Ray::new(Point3::splat(1e30), Vector3::new(0.0, 1.0, -0.0));
-        assert!(is_odd(&ray, 1.0, 1e32) && !is_odd(&ray, 1.0, 1e10));
-        let slab = Slab::odd::<true>(&ray, 1.0, 1e32);
+        let ray = Measured::of(&ray);
+        assert!(ray.is_odd(1e32) && !Measured::of(&Ray::new(Point3::ZERO, Vector3::new(0.0, 1.0, 0.0))).is_odd(1e10));
+        let slab = Slab::odd::<true>(&ray, 1e32);
         let window = slab.window(&grown(&Bounds3::new(Point3::splat(-1e32), Point3::splat(1e32)), 2e32));
         assert!(window.admits(0.0, f32::MAX), "{window:?}");
     }

@@ -2,7 +2,7 @@
 use durer_core::math::Ray;
 
 use crate::{
-    slab::{Slab, farthest, floor, is_far, is_odd},
+    slab::{Measured, Slab},
     triangle::Shear,
 };
 
@@ -18,25 +18,19 @@ pub(crate) struct Space<'r> {
 }
 
 impl<'r> Space<'r> {
-    /// For a ray of this [`crate::slab::length`].
+    /// For a valid ray.
     #[inline(always)]
-    pub(crate) fn new<const ROBUST: bool>(ray: &'r Ray, length: f32) -> Self {
-        let slab = Slab::new::<ROBUST>(ray, length, floor(length));
-        Self { ray, slab, shear: Shear::of_valid(ray) }
+    pub(crate) fn new<const ROBUST: bool>(ray: &'r Ray, measured: &Measured) -> Self {
+        Self { ray, slab: Slab::new::<ROBUST>(measured), shear: Shear::of_valid(measured) }
     }
 
-    /// Whether [`Space::mend`] is needed among things whose coordinates are at most `region`.
-    #[inline(always)]
-    pub(crate) fn is_odd(ray: &Ray, length: f32, region: f32) -> bool {
-        is_odd(ray, length, farthest(ray, region))
-    }
-
+    /// For rays that are odd.
     #[cold]
     #[inline(never)]
-    pub(crate) fn mend<const ROBUST: bool>(&mut self, length: f32, region: f32) {
-        let farthest = farthest(self.ray, region);
-        self.slab = Slab::odd::<ROBUST>(self.ray, length, farthest);
-        if is_far(length, farthest) {
+    pub(crate) fn mend<const ROBUST: bool>(&mut self, region: f32) {
+        let measured = Measured::of(self.ray);
+        self.slab = Slab::odd::<ROBUST>(&measured, region);
+        if measured.is_far(region) {
             self.shear.distrust();
         }
     }
@@ -45,10 +39,13 @@ impl<'r> Space<'r> {
 /// Declares `$space` for a ray and a region, or leaves the function if the ray can hit nothing.
 macro_rules! enter_space {
     ($space:ident, $robust:expr, $ray:expr, $region:expr) => {
-        let Some(length) = $crate::slab::length($ray) else { return Default::default() };
-        let mut $space = $crate::space::Space::new::<$robust>($ray, length);
-        if $crate::space::Space::is_odd($ray, length, $region) {
-            $space.mend::<$robust>(length, $region);
+        let measured = $crate::slab::Measured::of($ray);
+        if !measured.is_valid() {
+            return Default::default();
+        }
+        let mut $space = $crate::space::Space::new::<$robust>($ray, &measured);
+        if measured.is_odd($region) {
+            $space.mend::<$robust>($region);
         }
     };
 }

@@ -57,6 +57,11 @@ pub(super) fn assemble(
     for (instance, merged) in instances.iter().zip(&merged) {
         is_own[instance.geometry.index()] |= !merged;
     }
+    for (instance, merged) in instances.iter_mut().zip(&merged) {
+        let source = &sources[instance.geometry.index()];
+        let as_given = !merged || instance.pose == Pose::Identity;
+        instance.is_plain = as_given && matches!(source, Source::Triangles { .. }) && !source.moves();
+    }
     for (instance, _) in instances.iter_mut().zip(&merged).filter(|(i, merged)| **merged && i.mirrors) {
         // In the scene's own tree its triangles are turned round.
         instance.seen.is_reversed = !instance.seen.is_reversed;

@@ -203,6 +203,7 @@ impl Instance {
             mover,
             seen,
             mirrors: pose.mirrors(),
+            is_plain: false,
             is_bounded: false,
             bounds: empty,
             finite: empty,

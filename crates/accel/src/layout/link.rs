@@ -39,6 +39,13 @@ impl Link {
         self.0 & LEAF != 0
     }
 
+    /// The row of a packet of triangles, if it names one. PERF: one comparison for what most leaves are (bench kernel).
+    #[inline(always)]
+    pub(crate) fn packet(self) -> Option<u32> {
+        let row = self.0 ^ LEAF;
+        (row < Self::LIMIT).then_some(row)
+    }
+
     #[inline(always)]
     pub(crate) fn target(self) -> Target {
         let number = self.0 & (Self::LIMIT - 1);
@@ -67,6 +74,8 @@ mod tests {
             for target in all {
                 assert_eq!(Link::new(target).target(), target);
                 assert_eq!(Link::new(target).is_leaf(), !matches!(target, Target::Node(_)));
+                let packet = if let Target::Packet(row) = target { Some(row) } else { None };
+                assert_eq!(Link::new(target).packet(), packet);
             }
         }
     }

@@ -1,5 +1,5 @@
 //! Nodes: the boxes of `N` children, plane by plane.
-use crate::{lanes::Lanes, simd::Record};
+use crate::{lanes::Lanes, simd::{Record, flat}};
 
 /// `N` boxes. An empty lane has its lower planes at infinity and its upper ones at minus infinity: no ray enters it.
 #[derive(Clone, Copy, Debug)]
@@ -8,6 +8,17 @@ pub(crate) struct Node<const N: usize> {
     /// By axis, then lower or upper.
     planes: [[[f32; N]; 2]; 3],
     links: [u32; N],
+}
+
+/// The lower planes, or the upper ones if `side` is `N`.
+#[inline(always)]
+fn planes_at<const N: usize>(planes: &[[f32; N]; 2], side: usize) -> &[f32; N] {
+    // PERF: an offset in numbers is part of an address; which of two arrays is two instructions more (bench kernel).
+    let side = side & N;
+    match flat(planes)[side..side + N].first_chunk() {
+        Some(planes) => planes,
+        None => &planes[0],
+    }
 }
 
 /// `N` boxes that move: their planes at the start of a stretch of time, and how far they go until its end.
@@ -21,8 +32,9 @@ pub(crate) struct MovingNode<const N: usize> {
 
 /// How walks read nodes.
 pub(crate) trait BoxNode<V: Lanes>: Record {
-    /// The lower or upper planes of an axis at the fraction `u` of the stretch.
-    fn plane(&self, token: V::Token, axis: usize, upper: bool, u: V) -> V;
+    /// The planes of an axis at the fraction `u` of the stretch: the lower ones, or the upper ones if `side` is the
+    /// number of lanes.
+    fn plane(&self, token: V::Token, axis: usize, side: usize, u: V) -> V;
     /// What a lane holds.
     fn link(&self, lane: u32) -> u32;
 }
@@ -32,8 +44,8 @@ where
     Self: Record,
 {
     #[inline(always)]
-    fn plane(&self, token: V::Token, axis: usize, upper: bool, _: V) -> V {
-        V::load(token, &self.planes[axis][usize::from(upper)])
+    fn plane(&self, token: V::Token, axis: usize, side: usize, _: V) -> V {
+        V::load(token, planes_at(&self.planes[axis], side))
     }
     #[inline(always)]
     fn link(&self, lane: u32) -> u32 {
@@ -46,9 +58,9 @@ where
     Self: Record,
 {
     #[inline(always)]
-    fn plane(&self, token: V::Token, axis: usize, upper: bool, u: V) -> V {
-        let way = V::load(token, &self.ways[axis][usize::from(upper)]);
-        way.fused(u, V::load(token, &self.planes[axis][usize::from(upper)]))
+    fn plane(&self, token: V::Token, axis: usize, side: usize, u: V) -> V {
+        let way = V::load(token, planes_at(&self.ways[axis], side));
+        way.fused(u, V::load(token, planes_at(&self.planes[axis], side)))
     }
     #[inline(always)]
     fn link(&self, lane: u32) -> u32 {

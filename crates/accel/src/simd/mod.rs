@@ -9,6 +9,7 @@ mod stack;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub(crate) use records::flat;
 pub(crate) use pages::{Pages, ROW, Record};
 pub(crate) use stack::{Slots, Stack};
 #[cfg(target_arch = "x86_64")]

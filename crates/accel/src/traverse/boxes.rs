@@ -16,7 +16,9 @@ pub(crate) struct BoxRay<V> {
     near_c: [V; 3],
     far_r: [V; 3],
     far_c: [V; 3],
-    enters_above: [bool; 3],
+    /// Of the planes it enters and leaves by, in numbers from the lower ones.
+    near_side: [usize; 3],
+    far_side: [usize; 3],
     t_min: V,
     /// How far the stretch of time has gone.
     u: V,
@@ -31,12 +33,16 @@ fn splat<V: Lanes>(token: V::Token, v: f32x4) -> [V; 3] {
 impl<V: Lanes> BoxRay<V> {
     #[inline(always)]
     pub(crate) fn new(token: V::Token, slab: &Slab, t_min: f32, u: f32) -> Self {
+        let upper = V::ZEROS.as_ref().len();
+        let [x, y, z] = slab.enters_above;
+        let near_side = [usize::from(x) * upper, usize::from(y) * upper, usize::from(z) * upper];
         Self {
             near_r: splat(token, slab.near_r),
             near_c: splat(token, slab.near_c),
             far_r: splat(token, slab.far_r),
             far_c: splat(token, slab.far_c),
-            enters_above: slab.enters_above,
+            near_side,
+            far_side: [near_side[0] ^ upper, near_side[1] ^ upper, near_side[2] ^ upper],
             t_min: V::splat(token, t_min),
             u: V::splat(token, u),
         }
@@ -44,13 +50,13 @@ impl<V: Lanes> BoxRay<V> {
 
     #[inline(always)]
     fn near<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
-        let plane = node.plane(token, axis, self.enters_above[axis], self.u);
+        let plane = node.plane(token, axis, self.near_side[axis], self.u);
         plane.fused(self.near_r[axis], self.near_c[axis])
     }
 
     #[inline(always)]
     fn far<N: BoxNode<V>>(&self, token: V::Token, node: &N, axis: usize) -> V {
-        let plane = node.plane(token, axis, !self.enters_above[axis], self.u);
+        let plane = node.plane(token, axis, self.far_side[axis], self.u);
         plane.fused(self.far_r[axis], self.far_c[axis])
     }
 

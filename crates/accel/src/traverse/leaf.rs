@@ -49,21 +49,25 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
 
     #[inline(always)]
     pub(crate) fn nearest(&mut self, link: Link, best: &mut Best) {
+        if let Some(row) = link.packet() {
+            return self.packet_nearest(row, best);
+        }
         match link.target() {
-            Target::Packet(row) => self.packet_nearest(row, best),
             Target::Item(item) => self.item_nearest(item, best),
             Target::Instance(instance) => self.instance_nearest(instance, best),
-            Target::Node(_) => {}
+            Target::Packet(_) | Target::Node(_) => {}
         }
     }
 
     #[inline(always)]
     pub(crate) fn blocked(&mut self, link: Link, t_max: f32) -> bool {
+        if let Some(row) = link.packet() {
+            return self.packet_blocks(row, t_max);
+        }
         match link.target() {
-            Target::Packet(row) => self.packet_blocks(row, t_max),
             Target::Item(item) => self.item_blocks(item, t_max),
             Target::Instance(instance) => self.instance_blocks(instance, t_max),
-            Target::Node(_) => false,
+            Target::Packet(_) | Target::Node(_) => false,
         }
     }
 

@@ -14,7 +14,7 @@ use super::{Level, SCENE};
 use crate::{
     Accel,
     layout::{Link, MovingNode, MovingPacket, Node, NodeWriter, Packet, PacketRecord, Target},
-    slab::length,
+    slab::Measured,
     tree::{Forest, Tree, Trees},
 };
 
@@ -43,7 +43,7 @@ pub(crate) fn near_misses(
     mask: u32,
     radius_of: &dyn Fn(f32) -> f32,
 ) -> Vec<NearMiss> {
-    if length(ray).is_none() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
+    if !Measured::of(ray).is_valid() || ray.t_min.partial_cmp(&ray.t_max).is_none_or(Ordering::is_gt) {
         return Vec::new();
     }
     let (o, d) = (ray.o.to_f64(), ray.d.to_f64());

@@ -13,7 +13,10 @@ mod lanes;
 use durer_core::math::{Point3, Ray};
 use wide::f32x4;
 
-use crate::{layout::Axis, slab::greater};
+use crate::{
+    layout::Axis,
+    slab::{Measured, greater},
+};
 
 pub use cramer::cramer;
 use lanes::Corners;
@@ -53,20 +56,21 @@ pub struct Shear {
 impl Shear {
     /// `None` for a zero or non-finite direction, or one so short that its reciprocal is not finite.
     pub fn new(ray: &Ray) -> Option<Self> {
-        crate::slab::length(ray).map(|_| Self::of_valid(ray))
+        let measured = Measured::of(ray);
+        measured.is_valid().then(|| Self::of_valid(&measured))
     }
 
     /// Of a ray that has a direction.
     #[inline(always)]
-    pub(crate) fn of_valid(ray: &Ray) -> Self {
-        let size = ray.d.abs();
+    pub(crate) fn of_valid(ray: &Measured) -> Self {
+        let [x, y, z, _] = ray.d.abs().to_array();
         // PERF: numbers, not branches: which axis is longest cannot be foretold (bench kernel).
-        let of_two = usize::from(size.y > size.x);
-        let last = if size.z > greater(size.x, size.y) { 2 } else { of_two };
+        let of_two = usize::from(y > x);
+        let last = if z > greater(x, y) { 2 } else { of_two };
         let axes = AXES[last];
-        let (o, d) = (ray.o.to_array(), ray.d.to_array());
-        let o = [o[axes[0] as usize], o[axes[1] as usize], o[axes[2] as usize]];
-        let d = [d[axes[0] as usize], d[axes[1] as usize], d[axes[2] as usize]];
+        let (o, d) = (ray.o.as_array(), ray.d.as_array());
+        let o = [o[axes[0].index()], o[axes[1].index()], o[axes[2].index()]];
+        let d = [d[axes[0].index()], d[axes[1].index()], d[axes[2].index()]];
         let d = f32x4::new([d[0], d[1], d[2], 1.0]);
         let long = f32x4::splat(d.as_array()[2]);
         // PERF: one division of three (bench kernel).
@@ -93,7 +97,7 @@ impl Shear {
 
     /// A point relative to the origin, by `axes`.
     fn relative(&self, p: &Point3) -> [f32; 3] {
-        std::array::from_fn(|i| p[self.axes[i] as usize] - self.o[i])
+        std::array::from_fn(|i| p[self.axes[i].index()] - self.o[i])
     }
 }
 
