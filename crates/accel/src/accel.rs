@@ -1,4 +1,6 @@
 //! The frozen scene, and what a debugger may ask.
+use std::sync::OnceLock;
+
 use durer_core::math::{Bounds3, Transform};
 
 use crate::{
@@ -9,6 +11,7 @@ use crate::{
     layout::{MovingNode, Node},
     owners::Owners,
     placement::Pose,
+    traverse::Reaches,
     tree::{Forest, Tree, Trees},
 };
 
@@ -77,6 +80,8 @@ pub struct Accel {
     pub(crate) hides_backs: bool,
     pub(crate) is_filtered: bool,
     pub(crate) bounds: Bounds3,
+    /// Computed when near misses are first asked for.
+    pub(crate) reaches: OnceLock<Reaches>,
 }
 
 /// The parts of a scene.
@@ -111,6 +116,7 @@ impl Accel {
             hides_backs,
             is_filtered,
             bounds,
+            reaches: OnceLock::new(),
         };
         accel.measure();
         accel.name_nodes();
@@ -122,8 +128,14 @@ impl Accel {
         self.bounds = self.instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
     }
 
-    /// Gives each tree the first of its nodes' names.
+    /// Nodes of all trees.
+    pub(crate) fn node_count(&self) -> u32 {
+        self.trees().map(|(_, _, tree)| tree.nodes).sum()
+    }
+
+    /// Gives each tree the first of its nodes' names, and forgets what was known of nodes.
     pub(crate) fn name_nodes(&mut self) {
+        self.reaches = OnceLock::new();
         let own = self.geometries.iter_mut().filter_map(|geometry| geometry.forest.as_mut());
         let movers = self.movers.iter_mut().map(|movers| &mut movers.forest);
         let mut base = 0;
@@ -189,13 +201,14 @@ impl Accel {
         }
         let own = self.geometries.iter().filter_map(|g| Some(g.forest.as_ref()?.depth())).max();
         let movers = self.movers.as_ref();
-        stats.nodes = self.trees().map(|(_, _, tree)| u64::from(tree.nodes)).sum();
+        stats.nodes = u64::from(self.node_count());
         stats.max_depth = self.scene.depth().max(movers.map_or(0, |m| m.forest.depth())) + own.unwrap_or(0);
         let boxes = movers.map_or(0, |m| {
             m.forest.bytes() + m.boxes.iter().map(|b| size_of_val(b.as_slice())).sum::<usize>()
         });
         let poses: usize = self.instances.iter().map(|i| i.pose.bytes()).sum();
-        stats.bytes += (self.scene.bytes() + self.owners.bytes() + boxes + poses) as u64;
+        let reaches = self.reaches.get().map_or(0, Reaches::bytes);
+        stats.bytes += (self.scene.bytes() + self.owners.bytes() + boxes + poses + reaches) as u64;
         stats
     }
 
