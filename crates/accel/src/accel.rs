@@ -13,6 +13,7 @@ use crate::{
     placement::Pose,
     traverse::Reaches,
     tree::{Forest, Tree, Trees},
+    uses::Uses,
 };
 
 /// A geometry somewhere.
@@ -75,6 +76,8 @@ pub struct Accel {
     pub(crate) instances: Vec<Instance>,
     /// Whose the primitives of `scene` are.
     pub(crate) owners: Owners,
+    /// Who places each geometry.
+    pub(crate) uses: Uses,
     /// Whether some instance is not seen by all rays, hides its backs, is put to filters.
     pub(crate) is_selective: bool,
     pub(crate) hides_backs: bool,
@@ -102,6 +105,7 @@ impl Accel {
         let (hides_backs, is_filtered) = (any(|seen| seen.hides_backs), any(|seen| seen.is_filtered));
         let BuildOptions { engine, precision, preset, .. } = *options;
         let bounds = Bounds3::EMPTY;
+        let uses = Uses::new(geometries.len(), instances.iter().map(|instance| instance.geometry.index()));
         let mut accel = Self {
             engine,
             precision,
@@ -112,6 +116,7 @@ impl Accel {
             geometries,
             instances,
             owners,
+            uses,
             is_selective,
             hides_backs,
             is_filtered,
@@ -133,9 +138,13 @@ impl Accel {
         self.trees().map(|(_, _, tree)| tree.nodes).sum()
     }
 
-    /// Gives each tree the first of its nodes' names, and forgets what was known of nodes.
-    pub(crate) fn name_nodes(&mut self) {
+    /// Forgets what was known of nodes.
+    pub(crate) fn forget_reaches(&mut self) {
         self.reaches = OnceLock::new();
+    }
+
+    /// Gives each tree the first of its nodes' names.
+    pub(crate) fn name_nodes(&mut self) {
         let own = self.geometries.iter_mut().filter_map(|geometry| geometry.forest.as_mut());
         let movers = self.movers.iter_mut().map(|movers| &mut movers.forest);
         let mut base = 0;
@@ -208,7 +217,8 @@ impl Accel {
         });
         let poses: usize = self.instances.iter().map(|i| i.pose.bytes()).sum();
         let reaches = self.reaches.get().map_or(0, Reaches::bytes);
-        stats.bytes += (self.scene.bytes() + self.owners.bytes() + boxes + poses + reaches) as u64;
+        stats.bytes +=
+            (self.scene.bytes() + self.owners.bytes() + self.uses.bytes() + boxes + poses + reaches) as u64;
         stats
     }
 

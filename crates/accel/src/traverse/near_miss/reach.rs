@@ -11,8 +11,9 @@ use durer_core::math::Bounds3;
 use super::{gate::sphere_stretch, sphere};
 use crate::{
     Accel,
+    geometry::Items,
     layout::{Link, MovingNode, MovingPacket, Node, NodeWriter, Packet, PacketRecord, Target},
-    placement::Pose,
+    placement::{Pose, matrix},
     tree::{Forest, Tree, Trees},
 };
 
@@ -27,7 +28,8 @@ impl Reaches {
         let mut roots = Vec::with_capacity(accel.geometries.len());
         for geometry in &accel.geometries {
             let own = |prim: u32| geometry.items.own_box(prim);
-            let things = Things { count: geometry.items.len(), own: &own, placed: &|_| 0.0 };
+            let has_parts = matches!(geometry.items, Items::Curves(..));
+            let things = Things { has_parts, count: geometry.items.len(), own: &own, placed: &|_| 0.0 };
             roots.push(geometry.forest.as_ref().map_or(0.0, |forest| reaches.forest(accel, forest, &things)));
         }
         let own = |id: u32| {
@@ -38,7 +40,9 @@ impl Reaches {
             let instance = &accel.instances[index as usize];
             f64::from(roots[instance.geometry.index()]) * pose_stretch(&instance.pose)
         };
-        let things = Things { count: accel.owners.total(), own: &own, placed: &placed };
+        let mut owners = accel.owners.ranges();
+        let has_parts = owners.any(|(instance, _)| matches!(accel.items(instance), Items::Curves(..)));
+        let things = Things { has_parts, count: accel.owners.total(), own: &own, placed: &placed };
         for forest in std::iter::once(&accel.scene).chain(accel.movers.iter().map(|m| &m.forest)) {
             reaches.forest(accel, forest, &things);
         }
@@ -74,6 +78,8 @@ impl Reaches {
 
 /// What leaves that hold no triangles hold.
 struct Things<'a> {
+    /// Some may lie in several leaves.
+    has_parts: bool,
     /// Numbers in the tree are below this.
     count: u32,
     /// The box of a shape.
@@ -87,7 +93,7 @@ fn pose_stretch(pose: &Pose) -> f64 {
     match pose {
         Pose::Identity => 1.0,
         Pose::Still(place) => sphere_stretch(&place.to_f64()),
-        Pose::Moving(keys) => keys.iter().map(|key| sphere_stretch(&key.1)).fold(0.0, f64::max),
+        Pose::Moving(keys) => keys.iter().map(|key| sphere_stretch(&matrix(&key.1))).fold(0.0, f64::max),
     }
 }
 
@@ -100,7 +106,7 @@ fn measure<N: NodeWriter, R: PacketRecord>(
 ) {
     // How near the boxes come that hold a primitive to its centre, by its number in the tree.
     let mut gaps = Vec::new();
-    if !tree.cut.is_empty() {
+    if things.has_parts || !tree.cut.is_empty() {
         gaps = vec![f64::INFINITY; things.count as usize];
         leaves::<N, R>(tree, &[0.0], things, |_, leaf| {
             if let Leaf::Primitive { id, gap, .. } = leaf {
