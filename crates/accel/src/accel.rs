@@ -1,4 +1,6 @@
 //! The frozen scene, and what a debugger may ask.
+use std::sync::OnceLock;
+
 use durer_core::math::{Bounds3, Transform};
 
 use crate::{
@@ -9,7 +11,9 @@ use crate::{
     layout::{MovingNode, Node},
     owners::Owners,
     placement::Pose,
+    traverse::Reaches,
     tree::{Forest, Tree, Trees},
+    uses::Uses,
 };
 
 /// A geometry somewhere.
@@ -74,11 +78,15 @@ pub struct Accel {
     pub(crate) instances: Vec<Instance>,
     /// Whose the primitives of `scene` are.
     pub(crate) owners: Owners,
+    /// Who places each geometry.
+    pub(crate) uses: Uses,
     /// Whether some instance is not seen by all rays, hides its backs, is put to filters.
     pub(crate) is_selective: bool,
     pub(crate) hides_backs: bool,
     pub(crate) is_filtered: bool,
     pub(crate) bounds: Bounds3,
+    /// Computed when near misses are first asked for.
+    pub(crate) reaches: OnceLock<Reaches>,
 }
 
 /// The parts of a scene.
@@ -99,6 +107,7 @@ impl Accel {
         let (hides_backs, is_filtered) = (any(|seen| seen.hides_backs), any(|seen| seen.is_filtered));
         let BuildOptions { engine, precision, preset, .. } = *options;
         let bounds = Bounds3::EMPTY;
+        let uses = Uses::new(geometries.len(), instances.iter().map(|instance| instance.geometry.index()));
         let mut accel = Self {
             engine,
             precision,
@@ -109,10 +118,12 @@ impl Accel {
             geometries,
             instances,
             owners,
+            uses,
             is_selective,
             hides_backs,
             is_filtered,
             bounds,
+            reaches: OnceLock::new(),
         };
         accel.measure();
         accel.name_nodes();
@@ -122,6 +133,16 @@ impl Accel {
     /// Sets the box around everything.
     pub(crate) fn measure(&mut self) {
         self.bounds = self.instances.iter().fold(Bounds3::EMPTY, |all, i| all.union(i.finite));
+    }
+
+    /// Nodes of all trees.
+    pub(crate) fn node_count(&self) -> u32 {
+        self.trees().map(|(_, _, tree)| tree.nodes).sum()
+    }
+
+    /// Forgets what was known of nodes.
+    pub(crate) fn forget_reaches(&mut self) {
+        self.reaches = OnceLock::new();
     }
 
     /// Gives each tree the first of its nodes' names.
@@ -191,13 +212,15 @@ impl Accel {
         }
         let own = self.geometries.iter().filter_map(|g| Some(g.forest.as_ref()?.depth())).max();
         let movers = self.movers.as_ref();
-        stats.nodes = self.trees().map(|(_, _, tree)| u64::from(tree.nodes)).sum();
+        stats.nodes = u64::from(self.node_count());
         stats.max_depth = self.scene.depth().max(movers.map_or(0, |m| m.forest.depth())) + own.unwrap_or(0);
         let boxes = movers.map_or(0, |m| {
             m.forest.bytes() + m.boxes.iter().map(|b| size_of_val(b.as_slice())).sum::<usize>()
         });
         let poses: usize = self.instances.iter().map(|i| i.pose.bytes()).sum();
-        stats.bytes += (self.scene.bytes() + self.owners.bytes() + boxes + poses) as u64;
+        let reaches = self.reaches.get().map_or(0, Reaches::bytes);
+        stats.bytes +=
+            (self.scene.bytes() + self.owners.bytes() + self.uses.bytes() + boxes + poses + reaches) as u64;
         stats
     }
 

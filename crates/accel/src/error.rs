@@ -120,7 +120,9 @@ pub enum BuildError {
         /// As `Isa::name` says it.
         isa: &'static str,
     },
-    /// A tree has more rows than links can name.
+    /// A tree has more than the 2^28 rows of 32 bytes that links can name, which are 8 GiB. Triangles take 57 to 100 bytes
+    /// each with the boxes above them, so that 85 to 150 million fit into one tree. Each geometry that is placed several
+    /// times, moves or is kept apart has a tree of its own; all others share the scene's.
     #[error(
         "the tree over {primitives} primitives takes more than {gigabytes} GiB; leave out geometry, or trace the scene in parts"
     )]
@@ -150,6 +152,14 @@ impl BuildError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{layout::Link, simd::ROW};
+
+    #[test]
+    fn a_tree_has_room_for_as_many_triangles_as_its_error_says() {
+        let bytes = u64::from(Link::LIMIT) * ROW as u64;
+        assert_eq!((Link::LIMIT, bytes), (1 << 28, 8 << 30));
+        assert_eq!([100, 57].map(|each| bytes / each / 1_000_000), [85, 150]);
+    }
 
     #[test]
     fn more_primitives_than_ids_are_refused() {

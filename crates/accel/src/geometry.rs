@@ -5,7 +5,7 @@ use durer_core::math::Bounds3;
 use rayon::prelude::*;
 
 use crate::{
-    curve::Curves,
+    curve::{Curves, parts},
     point::Points,
     slab::{extent, grown},
     tree::Forest,
@@ -66,6 +66,18 @@ impl Items {
     /// The box of a shape.
     pub(crate) fn own_box(&self, prim: u32) -> OwnBox {
         self.boxes().get(prim as usize).copied().flatten()
+    }
+
+    /// Numbers and boxes of finite shapes as trees hold them, in order: a long curve several times, by its parts.
+    pub(crate) fn leaf_boxes(&self) -> Vec<(u32, Bounds3)> {
+        let finite = |(prim, own): (usize, &OwnBox)| Some((prim as u32, (*own)?));
+        let shapes = self.boxes().par_iter().enumerate().filter_map(finite);
+        match self {
+            Self::Curves(curves, _) => shapes
+                .flat_map_iter(|(prim, own)| parts(curves, prim, &own).into_iter().map(move |b| (prim, b)))
+                .collect(),
+            _ => shapes.collect(),
+        }
     }
 
     fn bytes(&self) -> usize {

@@ -47,6 +47,7 @@ mod traverse;
 mod tree;
 pub mod triangle;
 mod user;
+mod uses;
 
 pub use accel::{Accel, NodeBounds};
 pub use build::{AccelBuilder, BuildOptions, Engine, GeometryData, Precision, Quads, Triangles, Visibility};

@@ -1,5 +1,5 @@
 //! Where an instance is, at each moment.
-use durer_core::glam::{DAffine3, DMat3};
+use durer_core::glam::{DAffine3, DMat3, DVec3};
 use durer_core::math::{Bounds3, Motion, Ray, Transform};
 
 use crate::BuildError;
@@ -82,7 +82,8 @@ fn segments(a: &DAffine3, b: &DAffine3) -> u32 {
 pub(crate) enum Pose {
     Identity,
     Still(Transform),
-    Moving(Vec<(f32, DAffine3)>),
+    /// Matrices by rows, as they were given. In f32, for there may be hundreds of thousands of keys.
+    Moving(Vec<(f32, [[f32; 4]; 3])>),
 }
 
 impl Pose {
@@ -106,7 +107,7 @@ impl Pose {
                 match keys.as_slice() {
                     [] => Err(BuildError::MotionKeyInvalid { instance, key: 0 }),
                     [(_, only)] => Self::new(Placement::Still(*only), instance),
-                    _ => Ok(Self::Moving(keys.iter().map(|(t, m)| (*t, m.to_f64())).collect())),
+                    _ => Ok(Self::Moving(keys.iter().map(|(t, m)| (*t, *m.rows())).collect())),
                 }
             }
         }
@@ -151,7 +152,7 @@ impl Pose {
             Self::Identity => *b,
             Self::Still(m) => of(m),
             Self::Moving(keys) => {
-                keys.iter().fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&k.1))))
+                keys.iter().fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&matrix(&k.1)))))
             }
         }
     }
@@ -164,14 +165,20 @@ impl Pose {
     }
 }
 
+/// A key's matrix.
+pub(crate) fn matrix(rows: &[[f32; 4]; 3]) -> DAffine3 {
+    let column = |j: usize| DVec3::new(rows[0][j].into(), rows[1][j].into(), rows[2][j].into());
+    DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+}
+
 /// Element by element between the keys around `time`; f64 so that the inverse keeps f32 accuracy.
-fn interpolate(keys: &[(f32, DAffine3)], time: f32) -> DAffine3 {
+fn interpolate(keys: &[(f32, [[f32; 4]; 3])], time: f32) -> DAffine3 {
     let after = keys.partition_point(|k| k.0 <= time);
     if after == 0 {
-        return keys[0].1;
+        return matrix(&keys[0].1);
     }
-    let (t0, a) = &keys[after - 1];
-    let Some((t1, b)) = keys.get(after) else { return *a };
+    let (t0, a) = (keys[after - 1].0, matrix(&keys[after - 1].1));
+    let Some((t1, b)) = keys.get(after).map(|key| (key.0, matrix(&key.1))) else { return a };
     let u = f64::from(time - t0) / f64::from(t1 - t0);
     let (m, n) = (&a.matrix3, &b.matrix3);
     DAffine3 {
@@ -187,7 +194,7 @@ fn interpolate(keys: &[(f32, DAffine3)], time: f32) -> DAffine3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_core::glam::{DQuat, DVec3};
+    use durer_core::glam::DQuat;
 
     #[test]
     fn a_turn_is_refined_and_a_shift_is_not() {

@@ -1,14 +1,17 @@
 //! A scene that changes from picture to picture: new vertices, new boxes, new places, without building all anew.
 use super::{
     data::{GeometryData, check_alike},
+    journal::{Changed, Journal},
     maker::{Kind, Maker, item_part, still_part},
     refit::{Changes, contents, refit},
     source::Source,
     subject::Part,
 };
+use durer_core::math::Bounds3;
+
 use crate::{
     Accel, BuildError, GeometryId, Placement,
-    accel::{Instance, Movers},
+    accel::Movers,
     geometry::{Geometry, Items},
     layout::Target,
     placement::Pose,
@@ -29,7 +32,9 @@ impl Accel {
     /// grown by more than rays can afford (a third, say), build anew.
     ///
     /// Takes time proportional to the geometry, and to the scene's own tree, which holds what is used once and stands
-    /// still: for a million triangles 0.12 s on two cores, where building takes 1 s (debug profile, optimized).
+    /// still: for a million triangles 0.12 s on two cores, where building takes 1 s (debug profile, optimized). Instances of
+    /// other geometries cost a look at their nodes.
+    /// Of long curves, which trees hold in parts, each part gets the box of the whole: rays take longer.
     /// Trees over moving instances are built anew if some of this geometry move, and so are the geometry's or the
     /// scene's if boxes became infinite or finite.
     ///
@@ -50,15 +55,19 @@ impl Accel {
         if is_own && !same_ends {
             new.forest = Some(self.maker().forest(&source, &new.items)?);
         }
-        let mut instances = self.instances.clone();
-        instances.iter_mut().filter(|i| i.geometry == geometry).for_each(|i| i.measure(new.bounds));
+        let mut journal = Journal::with_room_for(self.uses.of(at).len());
+        for &index in self.uses.of(at) {
+            journal.change(&mut self.instances, index, None, new.bounds);
+        }
         // From here on only what cannot fail may change anything but the geometry.
         let is_new = new.forest.is_some();
         let old = std::mem::replace(&mut self.geometries[at], new);
-        let renewed = match self.renewed(&mut instances, !is_own && !same_ends) {
+        let changed = journal.changed(&self.instances);
+        let renewed = match self.renewed(&changed, !is_own && !same_ends) {
             Ok(renewed) => renewed,
             Err(error) => {
                 self.geometries[at] = old;
+                journal.undo(&mut self.instances);
                 return Err(error);
             }
         };
@@ -66,7 +75,7 @@ impl Accel {
             self.geometries[at].forest = old.forest;
             self.refit_own(at, &source);
         }
-        self.adopt(instances, renewed, Some((geometry, &source)));
+        self.adopt(&changed, renewed, Some((geometry, &source)));
         Ok(())
     }
 
@@ -83,8 +92,8 @@ impl Accel {
     /// or is kept apart (`AccelBuilder::keep_apart`). Hits are those of a scene built anew in which
     /// all these are kept apart, bit for bit.
     ///
-    /// Takes time proportional to all instances and the nodes of the scene's own tree, whose boxes follow, however many are
-    /// moved. Trees over moving instances are built anew if one of these changes. The scene's own tree is built anew
+    /// Takes time proportional to the instances that are moved and the boxes around them, and a look at all nodes of the
+    /// scene's own tree. Trees over moving instances are built anew if one of these changes. The scene's own tree is built anew
     /// ([`Accel::regrow`]) if an instance starts or stops moving. Otherwise its form stays, and costs more the further
     /// instances move apart: watch [`Accel::sah_cost`].
     ///
@@ -95,20 +104,29 @@ impl Accel {
         &mut self,
         placements: impl IntoIterator<Item = (u32, Placement)>,
     ) -> Result<(), BuildError> {
-        let mut instances = self.instances.clone();
-        for (index, placement) in placements {
-            let Some(instance) = instances.get_mut(index as usize) else {
+        let mut placements = placements.into_iter();
+        let mut journal = Journal::with_room_for(placements.size_hint().0);
+        let done = placements.try_for_each(|(index, placement)| {
+            let Some(instance) = self.instances.get(index as usize) else {
                 return Err(BuildError::InstanceUnknown { instance: index });
             };
             if self.owners.range_of(index).is_some() {
                 return Err(BuildError::InstanceMerged { instance: index });
             }
-            instance.pose = Pose::new(placement, index as usize)?;
-            instance.mirrors = instance.pose.mirrors();
-            instance.measure(self.geometries[instance.geometry.index()].bounds);
-        }
-        let renewed = self.renewed(&mut instances, false)?;
-        self.adopt(instances, renewed, None);
+            let pose = Pose::new(placement, index as usize)?;
+            let boxes = self.geometries[instance.geometry.index()].bounds;
+            journal.change(&mut self.instances, index, Some(pose), boxes);
+            Ok(())
+        });
+        let changed = journal.changed(&self.instances);
+        let renewed = match done.and_then(|()| self.renewed(&changed, false)) {
+            Ok(renewed) => renewed,
+            Err(error) => {
+                journal.undo(&mut self.instances);
+                return Err(error);
+            }
+        };
+        self.adopt(&changed, renewed, None);
         Ok(())
     }
 
@@ -119,9 +137,8 @@ impl Accel {
     /// # Errors
     /// [`BuildError::TreeTooLarge`]; the scene is left as it was.
     pub fn regrow(&mut self) -> Result<(), BuildError> {
-        let mut instances = self.instances.clone();
-        let renewed = self.renewed(&mut instances, true)?;
-        self.adopt(instances, renewed, None);
+        let renewed = self.renewed(&[], true)?;
+        self.adopt(&[], renewed, None);
         Ok(())
     }
 
@@ -129,26 +146,31 @@ impl Accel {
         Maker { engine: self.engine, preset: self.preset, registers: self.registers }
     }
 
-    /// What must be built anew for `instances` to take the place of those there are.
-    fn renewed(&self, instances: &mut [Instance], regrows: bool) -> Result<Renewed, BuildError> {
-        let pairs = (0u32..).zip(self.instances.iter().zip(instances.iter()));
-        let apart = pairs.filter(|(index, _)| self.owners.range_of(*index).is_none());
-        let kinds: Vec<_> =
-            apart.map(|(_, (old, new))| (Kind::of(old), Kind::of(new), old.differs(new))).collect();
-        let regrows = regrows || kinds.iter().any(|(old, new, _)| old != new);
-        let moves = kinds.iter().any(|(_, new, differs)| *new == Kind::Moving && *differs);
+    /// What must be built anew after instances have changed.
+    fn renewed(&mut self, changed: &[Changed], regrows: bool) -> Result<Renewed, BuildError> {
+        let now = |change: &Changed| Kind::of(&self.instances[change.index as usize]);
+        let mut apart = changed.iter().filter(|change| self.owners.range_of(change.index).is_none());
+        let regrows = regrows || apart.clone().any(|change| now(change) != change.was);
+        let moves = apart.any(|change| now(change) == Kind::Moving);
         let mut renewed = Renewed::default();
         if regrows {
-            renewed.scene = Some(self.regrown(instances)?);
+            renewed.scene = Some(self.regrown()?);
         }
         if regrows || moves {
-            renewed.movers = Some(self.maker().movers(instances, &self.geometries)?);
+            let numbers: Vec<u32> = self.instances.iter().map(|instance| instance.mover).collect();
+            match self.maker().movers(&mut self.instances, &self.geometries) {
+                Ok(movers) => renewed.movers = Some(movers),
+                Err(error) => {
+                    self.instances.iter_mut().zip(numbers).for_each(|(i, number)| i.mover = number);
+                    return Err(error);
+                }
+            }
         }
         Ok(renewed)
     }
 
     /// The scene's own tree, from what it holds.
-    fn regrown(&self, instances: &[Instance]) -> Result<Forest, BuildError> {
+    fn regrown(&self) -> Result<Forest, BuildError> {
         let [tree] = self.scene.trees() else { return Ok(self.scene.clone()) };
         let mut parts = vec![Part::Loose(contents(tree))];
         let mut unbounded = Vec::new();
@@ -158,7 +180,7 @@ impl Accel {
             unbounded.extend(more);
         }
         let stands_apart = |index| self.owners.range_of(index).is_none();
-        self.maker().scene(parts, unbounded, instances, stands_apart)
+        self.maker().scene(parts, unbounded, &self.instances, stands_apart)
     }
 
     /// Brings the trees of a geometry up to date.
@@ -187,35 +209,53 @@ impl Accel {
         forest.measure();
     }
 
-    /// Takes on instances and trees that fit them, and what `changed` says of a geometry.
-    fn adopt(
-        &mut self,
-        instances: Vec<Instance>,
-        renewed: Renewed,
-        changed: Option<(GeometryId, &Source<'_>)>,
-    ) {
-        let old = std::mem::replace(&mut self.instances, instances);
+    /// Takes on trees that fit changed instances, and what `refitted` says of a geometry.
+    fn adopt(&mut self, changed: &[Changed], renewed: Renewed, refitted: Option<(GeometryId, &Source<'_>)>) {
         let is_regrown = renewed.scene.is_some();
+        let has_new_trees = is_regrown || renewed.movers.is_some();
         if let Some(scene) = renewed.scene {
             self.scene = scene;
         }
         if let Some(movers) = renewed.movers {
             self.movers = movers;
         }
-        self.measure();
-        let differs: Vec<bool> = old.iter().zip(&self.instances).map(|(a, b)| a.differs(b)).collect();
-        let merged = changed.and_then(|(geometry, source)| {
-            let index = self.instances.iter().position(|instance| instance.geometry == geometry)?;
-            Some((index, self.owners.range_of(index as u32)?, source))
+        self.measure_changed(changed);
+        let merged = refitted.and_then(|(geometry, source)| {
+            let index = *self.uses.of(geometry.index()).first()?;
+            Some((index as usize, self.owners.range_of(index)?, source))
         });
-        if !is_regrown && (merged.is_some() || differs.contains(&true)) {
-            self.refit_scene(&differs, merged);
+        if !is_regrown && (merged.is_some() || !changed.is_empty()) {
+            self.refit_scene(changed, merged);
         }
-        self.name_nodes();
+        if has_new_trees || refitted.is_some() {
+            self.name_nodes();
+        }
+        self.forget_reaches();
+    }
+
+    /// Sets the box around everything, which grows with what has changed if nothing of that was at its sides.
+    fn measure_changed(&mut self, changed: &[Changed]) {
+        let all = self.bounds;
+        let is_inside = |b: &Bounds3| {
+            let at = |axis: usize| all.min[axis] < b.min[axis] && b.max[axis] < all.max[axis];
+            b.is_empty() || (at(0) && at(1) && at(2))
+        };
+        if changed.iter().all(|change| is_inside(&change.was_finite)) {
+            let now = changed.iter().map(|change| self.instances[change.index as usize].finite);
+            self.bounds = now.fold(all, Bounds3::union);
+        } else {
+            self.measure();
+        }
     }
 
     /// Brings the scene's own tree up to date: instances that differ, and one that is part of it.
-    fn refit_scene(&mut self, differs: &[bool], merged: Option<(usize, std::ops::Range<u32>, &Source<'_>)>) {
+    fn refit_scene(
+        &mut self,
+        changed: &[Changed],
+        merged: Option<(usize, std::ops::Range<u32>, &Source<'_>)>,
+    ) {
+        let mut differs = vec![false; self.instances.len()];
+        changed.iter().for_each(|change| differs[change.index as usize] = true);
         let none = Items::Triangles(0);
         let items = merged
             .as_ref()

@@ -194,5 +194,7 @@ pub(crate) fn list<R: PacketRecord>(subject: &Subject<'_>) -> Tree {
         leaves.push(Link::new(Target::Packet(row)));
     }
     leaves.extend(single.iter().map(|&prim| subject.link(prim)));
+    // A curve in several parts is tested once.
+    leaves.dedup();
     Tree { pages, leaves, bounds, ..Tree::empty() }
 }

@@ -174,13 +174,7 @@ pub(super) fn still_part<'s>(
 
 /// The same for items alone.
 pub(super) fn item_part<'s>(items: &Items, first_id: u32) -> (Part<'s>, Vec<Link>) {
-    let mut bounded = Vec::new();
-    let mut unbounded = Vec::new();
-    for (id, own) in (first_id..).zip(items.boxes()) {
-        match own {
-            Some(own) => bounded.push((id, *own)),
-            None => unbounded.push(Link::new(Target::Item(id))),
-        }
-    }
-    (Part::Items(bounded), unbounded)
+    let bounded = items.leaf_boxes().into_iter().map(|(prim, own)| (first_id + prim, own)).collect();
+    let endless = (first_id..).zip(items.boxes()).filter(|(_, own)| own.is_none());
+    (Part::Items(bounded), endless.map(|(id, _)| Link::new(Target::Item(id))).collect())
 }

@@ -3,6 +3,7 @@ mod animate;
 mod assemble;
 mod data;
 mod emit;
+mod journal;
 mod maker;
 mod moving;
 mod options;
@@ -219,10 +220,5 @@ impl Instance {
         self.finite = Some(self.pose.bounds(&finite)).filter(Bounds3::is_finite).unwrap_or(Bounds3::EMPTY);
         self.is_bounded = bounds.is_finite();
         self.bounds = if self.is_bounded { grown(&bounds, extent(&bounds)) } else { bounds };
-    }
-
-    /// Whether it is somewhere else, or larger or smaller.
-    fn differs(&self, other: &Self) -> bool {
-        self.pose != other.pose || self.bounds != other.bounds || self.finite != other.finite
     }
 }

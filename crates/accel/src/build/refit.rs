@@ -50,24 +50,42 @@ fn refit_as<N: NodeWriter, R: PacketRecord>(tree: &mut Tree, changes: &Changes<'
         tree.bounds = changes.whole;
         return;
     }
-    let mut around: Vec<Stretch> = vec![[Bounds3::EMPTY; 2]; tree.nodes as usize];
+    // The new boxes of nodes; `None` of those in which nothing has changed.
+    let mut around: Vec<Option<Stretch>> = vec![None; tree.nodes as usize];
+    let mut changed = Vec::with_capacity(N::WIDTH);
     // Children come after their parents.
     for number in (0..tree.nodes).rev() {
-        let mut node: N = *tree.pages.get(number * tree.node_rows);
-        for lane in 0..N::WIDTH {
-            let Some(([min, max], link)) = node.lane(lane, 0.0) else { continue };
-            let kept = [Bounds3 { min: min.into(), max: max.into() }; 2];
-            let boxes = match Link(link).target() {
-                Target::Node(row) => around[(row / tree.node_rows) as usize],
-                _ => leaf::<R>(tree, Link(link), changes, moves).unwrap_or(kept),
-            };
-            node.set(lane, &boxes.map(|b| [b.min.to_array(), b.max.to_array()]), link);
-            let all = &mut around[number as usize];
-            *all = std::array::from_fn(|end| all[end].union(boxes[end]));
+        let node: &N = tree.pages.get(number * tree.node_rows);
+        let fresh = |link: u32| match Link(link).target() {
+            Target::Node(row) => around[(row / tree.node_rows) as usize],
+            _ => leaf::<R>(tree, Link(link), changes, moves),
+        };
+        let lanes = || (0..N::WIDTH).filter_map(|lane| Some((lane, node.lane(lane, 0.0)?)));
+        changed.extend(lanes().filter_map(|(lane, (_, link))| Some((lane, link, fresh(link)?))));
+        if changed.is_empty() {
+            continue;
         }
-        *tree.pages.get_mut(number * tree.node_rows) = node;
+        let mut all = [Bounds3::EMPTY; 2];
+        let mut new = changed.iter().peekable();
+        for (lane, (start, _)) in lanes() {
+            let boxes = new.next_if(|(at, ..)| *at == lane).map_or_else(
+                || {
+                    let end = node.lane(lane, 1.0).map_or(start, |(end, _)| end);
+                    [start, end].map(|[min, max]| Bounds3 { min: min.into(), max: max.into() })
+                },
+                |(.., boxes)| *boxes,
+            );
+            all = std::array::from_fn(|end| all[end].union(boxes[end]));
+        }
+        around[number as usize] = Some(all);
+        let node: &mut N = tree.pages.get_mut(number * tree.node_rows);
+        for (lane, link, boxes) in changed.drain(..) {
+            node.set(lane, &boxes.map(|b| [b.min.to_array(), b.max.to_array()]), link);
+        }
     }
-    tree.bounds = around[0][0].union(around[0][1]);
+    if let Some(all) = around[0] {
+        tree.bounds = all[0].union(all[1]);
+    }
 }
 
 fn has_any<R: PacketRecord>(packet: &R, ids: &Range<u32>) -> bool {

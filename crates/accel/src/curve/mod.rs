@@ -28,6 +28,7 @@ use durer_core::{
 };
 
 pub use basis::CurveBasis;
+pub(crate) use bounds::parts;
 pub use error::CurveError;
 pub use ray_frame::RayFrame;
 pub use surface::CurveSurface;

@@ -4,5 +4,5 @@ mod node;
 mod packet;
 
 pub(crate) use link::{Link, Target};
-pub(crate) use node::{BoxNode, MovingNode, Node, NodeWriter};
+pub(crate) use node::{BoxNode, MovingNode, Node, NodePlanes, NodeWriter};
 pub(crate) use packet::{Axis, MovingPacket, PACKET, Packet, PacketRecord};

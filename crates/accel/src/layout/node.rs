@@ -68,6 +68,44 @@ where
     }
 }
 
+/// How all planes of a node are read at once.
+pub(crate) trait NodePlanes<const N: usize>: Record {
+    /// By axis, then lower or upper, at the fraction `u` of the stretch.
+    fn planes(&self, u: f32) -> [[[f32; N]; 2]; 3];
+    /// What the lanes hold.
+    fn links(&self) -> &[u32; N];
+}
+
+impl<const N: usize> NodePlanes<N> for Node<N>
+where
+    Self: Record,
+{
+    #[inline(always)]
+    fn planes(&self, _: f32) -> [[[f32; N]; 2]; 3] {
+        self.planes
+    }
+    #[inline(always)]
+    fn links(&self) -> &[u32; N] {
+        &self.links
+    }
+}
+
+impl<const N: usize> NodePlanes<N> for MovingNode<N>
+where
+    Self: Record,
+{
+    fn planes(&self, u: f32) -> [[[f32; N]; 2]; 3] {
+        let mut planes = self.planes;
+        for (planes, ways) in planes.iter_mut().flatten().zip(self.ways.iter().flatten()) {
+            planes.iter_mut().zip(ways).for_each(|(plane, way)| *plane += way * u);
+        }
+        planes
+    }
+    fn links(&self) -> &[u32; N] {
+        &self.links
+    }
+}
+
 /// How nodes are written and looked at one lane at a time. Boxes come in pairs: at the start and the end of the stretch.
 pub(crate) trait NodeWriter: Record + Send + Sync {
     /// Lanes.

@@ -26,7 +26,7 @@ pub(crate) use blocked::blocked;
 pub(crate) use exhaustive::{exhaustive_blocked, exhaustive_nearest};
 pub(crate) use kernel::Kernel;
 pub use near_miss::NearMiss;
-pub(crate) use near_miss::near_misses;
+pub(crate) use near_miss::{Reaches, near_misses};
 pub(crate) use nearest::nearest;
 
 /// What a query asks, and of what.

@@ -1,10 +1,15 @@
-//! Which primitives a ray meets or passes closely: their bounding spheres, enlarged, against the ray.
+//! Which primitives a ray passes closely: their bounding spheres, enlarged, against the ray.
 //!
-//! A node whose box has the centre `C` and half the diagonal `W` holds boxes with centres `c` and half diagonals `w`, and
-//! `|c - C| + |w| <= sqrt(2) |W|`, because the two vectors on the left add up to no more than `W` along each axis and so
-//! the sum of their squares is no more than `W^2`. If the ray stays further than that from `C`, it meets none of the
-//! spheres inside. The enlargement is that at the furthest `c`, which the ray passes within `|W|` of where it passes `C`.
-//! Triangles that the builder cut lie in no box as a whole: they are tested one by one.
+//! A sphere lies within some distance of the boxes of all nodes that its primitive is in ([`reach`]), so that nodes are
+//! entered whose boxes the ray meets when they are enlarged by that and by the radius asked for ([`gate`]).
+//!
+//! Trees of instances lie in their own spaces, spheres in render space. A box with half the diagonal `W` in render space
+//! holds boxes with centres `c` and half diagonals `w`, and `|c - C| + |w| <= sqrt(2) |W|`, because the two vectors on the
+//! left add up to no more than `W` along each axis and so the sum of their squares is no more than `W^2`. So the sphere
+//! of a placed primitive lies in a ball around the image of its own sphere's centre.
+mod gate;
+mod reach;
+
 use std::cmp::Ordering;
 
 use durer_core::glam::DVec3;
@@ -13,10 +18,12 @@ use durer_core::math::{Bounds3, Ray, Transform};
 use super::{Level, SCENE};
 use crate::{
     Accel,
-    layout::{Link, MovingNode, MovingPacket, Node, NodeWriter, Packet, PacketRecord, Target},
+    layout::{Link, MovingNode, MovingPacket, Node, NodePlanes, Packet, PacketRecord, Target},
     slab::Measured,
     tree::{Forest, Tree, Trees},
 };
+use gate::Gate;
+pub(crate) use reach::Reaches;
 
 /// A primitive whose enlarged bounding sphere the ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +40,6 @@ pub struct NearMiss {
     pub radius: f32,
 }
 
-/// Room for roundings of boxes and distances to f32, as a fraction.
-const SLACK: f64 = 1e-5;
-
 /// All near misses, by instance and primitive.
 pub(crate) fn near_misses(
     accel: &Accel,
@@ -49,7 +53,9 @@ pub(crate) fn near_misses(
     let (o, d) = (ray.o.to_f64(), ray.d.to_f64());
     let ends = (ray.t_min.into(), ray.t_max.into());
     let t_per_length = 1.0 / d.length();
-    let mut search = Search { accel, ray, o, d, ends, t_per_length, mask, radius_of, found: Vec::new() };
+    let reaches = accel.reaches.get_or_init(|| Reaches::of(accel));
+    let mut search =
+        Search { accel, reaches, ray, o, d, ends, t_per_length, mask, radius_of, found: Vec::new() };
     for forest in std::iter::once(&accel.scene).chain(accel.movers.iter().map(|movers| &movers.forest)) {
         search.forest(SCENE, forest, None);
     }
@@ -65,6 +71,7 @@ pub(crate) fn near_misses(
 
 struct Search<'a> {
     accel: &'a Accel,
+    reaches: &'a Reaches,
     ray: &'a Ray,
     o: DVec3,
     d: DVec3,
@@ -93,48 +100,71 @@ impl Search<'_> {
         let level = Level { ray: self.ray, forest, instance, floor: f32::MIN };
         let (tree, moment) = level.tree();
         let site = Site { tree, instance, moment, place };
+        let gate = Gate::new(self.ray, site.place.as_ref(), forest.region);
         match (&forest.trees, self.accel.registers.width()) {
-            (Trees::Still(_), 16) => self.walk::<Node<16>, Packet>(&site),
-            (Trees::Still(_), _) => self.walk::<Node<8>, Packet>(&site),
-            (Trees::Moving { .. }, 16) => self.walk::<MovingNode<16>, MovingPacket>(&site),
-            (Trees::Moving { .. }, _) => self.walk::<MovingNode<8>, MovingPacket>(&site),
+            (Trees::Still(_), 16) => self.walk::<16, Node<16>, Packet>(&site, &gate),
+            (Trees::Still(_), _) => self.walk::<8, Node<8>, Packet>(&site, &gate),
+            (Trees::Moving { .. }, 16) => self.walk::<16, MovingNode<16>, MovingPacket>(&site, &gate),
+            (Trees::Moving { .. }, _) => self.walk::<8, MovingNode<8>, MovingPacket>(&site, &gate),
         }
     }
 
-    fn walk<N: NodeWriter, R: PacketRecord>(&mut self, site: &Site<'_>) {
-        for &link in site.tree.unbounded.iter().chain(&site.tree.leaves) {
-            self.leaf::<R>(site, link);
+    fn walk<const N: usize, B: NodePlanes<N>, R: PacketRecord>(&mut self, site: &Site<'_>, gate: &Gate) {
+        let tree = site.tree;
+        for &link in tree.unbounded.iter().chain(&tree.leaves) {
+            self.leaf::<R>(site, link, None);
         }
-        // Nodes hold but parts of these.
-        for &(row, lane) in &site.tree.cut {
-            self.triangle::<R>(site, row, lane as usize);
-        }
-        let mut open: Vec<Link> = site.tree.root.into_iter().collect();
-        while let Some(link) = open.pop() {
-            let Target::Node(row) = link.target() else {
-                self.leaf::<R>(site, link);
-                continue;
-            };
-            let node: &N = site.tree.pages.get(row);
-            for ([min, max], link) in (0..N::WIDTH).filter_map(|lane| node.lane(lane, site.moment)) {
-                let bounds = site.placed(&Bounds3 { min: min.into(), max: max.into() });
-                if self.may_reach(&bounds) {
-                    open.push(Link(link));
+        let Some(Target::Node(root)) = tree.root.map(Link::target) else { return };
+        let all = [tree.bounds.min.to_array(), tree.bounds.max.to_array()];
+        let furthest = gate.furthest(all, self.reaches.at(tree.name(root)));
+        // Nodes, with the largest radius asked for in each.
+        let mut open = vec![(root, (self.radius_of)(furthest))];
+        while let Some((row, radius)) = open.pop() {
+            let node: &B = tree.pages.get(row);
+            let planes = node.planes(site.moment);
+            let reach = self.reaches.at(tree.name(row));
+            let mut near = gate.lanes(&planes, &gate.margin(reach, radius));
+            while near != 0 {
+                let lane = near.trailing_zeros() as usize % N;
+                near &= near - 1;
+                let link = Link(node.links()[lane]);
+                // Once more with what is known of this lane alone.
+                let below = match link.target() {
+                    Target::Node(row) => self.reaches.at(tree.name(row)),
+                    _ => reach,
+                };
+                let own = planes.map(|[lower, upper]| [[lower[lane]], [upper[lane]]]);
+                let furthest = gate.furthest([own.map(|a| a[0][0]), own.map(|a| a[1][0])], below);
+                let radius = (self.radius_of)(furthest);
+                if gate.lanes(&own, &gate.margin(below, radius)) == 0 {
+                    continue;
+                }
+                match link.target() {
+                    Target::Node(row) => open.push((row, radius)),
+                    _ => self.leaf::<R>(site, link, Some((gate, radius))),
                 }
             }
         }
     }
 
-    fn leaf<R: PacketRecord>(&mut self, site: &Site<'_>, link: Link) {
+    /// `filter` has the largest radius asked for in a leaf that is entered; `None` tests all.
+    fn leaf<R: PacketRecord>(&mut self, site: &Site<'_>, link: Link, filter: Option<(&Gate, f32)>) {
         match link.target() {
             Target::Packet(row) => {
                 let packet: &R = site.tree.pages.get(row);
-                (0..packet.len()).for_each(|lane| self.triangle::<R>(site, row, lane));
+                let mut near = filter.map_or((1 << packet.len()) - 1, |(gate, radius)| {
+                    gate.triangles(packet, site.moment, radius)
+                });
+                while near != 0 {
+                    self.triangle(site, packet, near.trailing_zeros() as usize);
+                    near &= near - 1;
+                }
             }
             Target::Item(item) => {
                 let (instance, prim) = self.name(site, item);
-                let own = self.accel.items(instance).own_box(prim);
-                self.primitive(site, item, own.map(|own| site.placed(&own)));
+                if let Some(own) = self.accel.items(instance).own_box(prim) {
+                    self.primitive(site, item, &site.placed(&own));
+                }
             }
             Target::Instance(index) => {
                 let instance = &self.accel.instances[index as usize];
@@ -149,11 +179,10 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
-    fn triangle<R: PacketRecord>(&mut self, site: &Site<'_>, row: u32, lane: usize) {
-        let packet: &R = site.tree.pages.get(row);
+    fn triangle<R: PacketRecord>(&mut self, site: &Site<'_>, packet: &R, lane: usize) {
         let corners = packet.triangle(lane, site.moment);
         let placed = corners.map(|p| site.place.as_ref().map_or(p, |m| m.point(p)));
-        self.primitive(site, packet.ids()[lane], Some(Bounds3::around(placed)));
+        self.primitive(site, packet.ids()[lane], &Bounds3::around(placed));
     }
 
     /// Instance and primitive of a number in the tree.
@@ -162,35 +191,19 @@ impl Search<'_> {
     }
 
     /// Notes a primitive if it is near and seen. `id` is its number in the tree.
-    fn primitive(&mut self, site: &Site<'_>, id: u32, bounds: Option<Bounds3>) {
-        let (instance, prim) = self.name(site, id);
-        let seen = self.accel.instances[instance as usize].seen.mask & self.mask != 0;
-        let Some(bounds) = bounds.filter(|b| seen && b.is_finite()) else { return };
-        let (center, half) = sphere(&bounds);
+    fn primitive(&mut self, site: &Site<'_>, id: u32, bounds: &Bounds3) {
+        let (center, half) = sphere(bounds);
         let t = self.approach(center).clamp(self.ends.0, self.ends.1);
         let distance = self.distance(center, t) as f32;
         let (t, radius) = (t as f32, half as f32);
-        if distance <= radius + (self.radius_of)(t) {
-            let (prim, ..) = self.accel.called(instance, prim, 0.0, 0.0);
-            self.found.push(NearMiss { t, instance, prim, distance, radius });
+        // False for the NaN of a box that is not finite.
+        if distance <= radius + (self.radius_of)(t) && bounds.is_finite() {
+            let (instance, prim) = self.name(site, id);
+            if self.accel.instances[instance as usize].seen.mask & self.mask != 0 {
+                let (prim, ..) = self.accel.called(instance, prim, 0.0, 0.0);
+                self.found.push(NearMiss { t, instance, prim, distance, radius });
+            }
         }
-    }
-
-    /// False if the ray meets no enlarged sphere of a primitive whose box lies inside `bounds`.
-    fn may_reach(&self, bounds: &Bounds3) -> bool {
-        if !bounds.is_finite() {
-            return true;
-        }
-        let (center, half) = sphere(bounds);
-        let (t_min, t_max) = self.ends;
-        let size = center.abs().max_element() + self.o.abs().max_element();
-        let slack = SLACK * (half + size);
-        let nearest = self.approach(center);
-        let distance = self.distance(center, nearest.clamp(t_min, t_max));
-        let furthest = nearest + (half + slack) * self.t_per_length;
-        let furthest = (furthest.clamp(t_min, t_max) as f32).next_up().min(self.ray.t_max).min(f32::MAX);
-        let enlarged = std::f64::consts::SQRT_2 * half + f64::from((self.radius_of)(furthest));
-        distance <= enlarged * (1.0 + SLACK) + slack
     }
 
     /// The parameter at which the ray's line is nearest to `p`.
