@@ -54,6 +54,8 @@ pub enum Preset {
     High,
 }
 
+/// Children of a node at most, whatever the width asked for.
+pub(crate) const WIDEST: usize = 16;
 /// Most primitives that share a leaf.
 pub(crate) const PACKET: usize = 8;
 /// Levels of the tree at most, the root being one.
