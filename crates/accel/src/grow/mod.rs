@@ -133,7 +133,7 @@ impl Plan {
         match preset {
             Preset::Fast => Self { leaf_max: PACKET, effort: None, cuts: false },
             Preset::Balanced => {
-                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 4, fraction: 0.1 }), cuts: false }
+                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 3, fraction: 0.1 }), cuts: false }
             }
             Preset::High => {
                 Self { leaf_max: 1, effort: Some(Effort { rounds: 8, fraction: 0.5 }), cuts: true }

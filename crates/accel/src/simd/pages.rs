@@ -210,6 +210,25 @@ mod tests {
     }
 
     #[test]
+    fn two_sorts_of_records_lie_one_behind_the_other() {
+        let mut pages = Pages::zeroed(7);
+        let (first, second) = pages.split_mut::<Numbers, Numbers>(3);
+        assert_eq!((first.len(), second.len()), (3, 4));
+        (first[2].0[0], second[0].0[0]) = (1, 2);
+        assert_eq!([2, 3].map(|row| pages.get::<Numbers>(row).0[0]), [1, 2]);
+    }
+
+    #[test]
+    fn big_pages_change_nothing_but_speed() {
+        for count in [0, 3, 3 * BIG_PAGE / 4] {
+            let mut room = roomy::<u32>(count);
+            assert!(room.is_empty() && room.capacity() >= count);
+            room.extend(0..count as u32);
+            assert!(room.iter().copied().eq(0..count as u32));
+        }
+    }
+
+    #[test]
     #[should_panic(expected = "a record outside the tree")]
     fn nothing_is_read_beyond_the_end() {
         Pages::zeroed(2).get::<Numbers>(2);
