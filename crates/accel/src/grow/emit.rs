@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Above this level of wide nodes subtrees are written apart, by all threads, and put together afterwards.
-const LEVELS_APART: u32 = 2;
+const LEVELS_APART: u32 = 1;
 
 /// The wide tree of `choices`, if it is not too deep.
 pub(super) fn emit(tree: &Binary, choices: &Choices) -> Option<WideTree> {

@@ -128,9 +128,11 @@ pub(super) fn run<P: Primitives>(
 }
 
 impl Top<Vec<Item>> {
-    /// All nodes, which then point to places.
-    pub(super) fn assembled(self) -> Vec<Item> {
-        let mut nodes = blank(self.len());
+    /// All nodes, which then point to places, in memory that `room` has held.
+    pub(super) fn assembled(self, room: Vec<Item>) -> Vec<Item> {
+        let mut nodes = room;
+        nodes.resize(self.len(), Item::ZERO);
+        nodes.shrink_to_fit();
         self.place(&mut nodes, 0);
         nodes
     }

@@ -57,8 +57,7 @@ pub(super) fn build(
         }
     };
     let order = items.par_iter().with_min_len(CHUNK).map(Item::prim).collect();
-    drop(items);
-    Binary { nodes: subtrees.assembled(), order, unit }
+    Binary { nodes: subtrees.assembled(items), order, unit }
 }
 
 impl Plot {
