@@ -83,7 +83,8 @@ mod tests {
     fn large_and_small_ranges_in_turns() {
         let mut owners = Owners::default();
         let counts = [1, 200, 1, 1, 62, 64, 3, 0, 129, 64, 1];
-        let all = (0..).zip(counts).flat_map(|(instance, count)| (0..count).map(move |prim| (instance, prim)));
+        let all =
+            (0..).zip(counts).flat_map(|(instance, count)| (0..count).map(move |prim| (instance, prim)));
         for (instance, count) in (0..).zip(counts) {
             owners.push(instance, count);
         }

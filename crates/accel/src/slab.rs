@@ -267,7 +267,10 @@ mod tests {
     fn huge_coordinates_give_numbers() {
         let ray = Ray::new(Point3::splat(1e30), Vector3::new(0.0, 1.0, -0.0));
         let ray = Measured::of(&ray);
-        assert!(ray.is_odd(1e32) && !Measured::of(&Ray::new(Point3::ZERO, Vector3::new(0.0, 1.0, 0.0))).is_odd(1e10));
+        assert!(
+            ray.is_odd(1e32)
+                && !Measured::of(&Ray::new(Point3::ZERO, Vector3::new(0.0, 1.0, 0.0))).is_odd(1e10)
+        );
         let slab = Slab::odd::<true>(&ray, 1e32);
         let window = slab.window(&grown(&Bounds3::new(Point3::splat(-1e32), Point3::splat(1e32)), 2e32));
         assert!(window.admits(0.0, f32::MAX), "{window:?}");

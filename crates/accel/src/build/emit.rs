@@ -2,24 +2,18 @@
 use durer_core::math::{Bounds3, Point3};
 use rayon::prelude::*;
 
-use super::subject::{Stretch, Subject, slackened};
+use super::subject::{Stretch, Subject, Triangle, around, slackened};
 use crate::{
     BuildError,
-    grow::{self, Preset, Primitives, WideTree},
+    grow::{self, Child, Preset, Primitives, WideTree},
     layout::{Link, NodeWriter, PacketRecord, Target},
     simd::{Pages, ROW},
-    slab::extent,
+    slab::{extent, greater},
     tree::{Tree, rows_of},
 };
 
-/// Leaves that a task writes.
-const CHUNK: usize = 1024;
-
-/// A leaf: its box, and its packet unless it is a single thing that is not a triangle.
-struct Leaf<R> {
-    boxes: Stretch,
-    packet: Option<R>,
-}
+/// Subtrees of fewer nodes than this are written by one thread.
+const SHARED: usize = 256;
 
 /// Grows a tree over `subject` and lays it out.
 pub(crate) fn tree<N: NodeWriter, R: PacketRecord>(
@@ -28,64 +22,6 @@ pub(crate) fn tree<N: NodeWriter, R: PacketRecord>(
 ) -> Result<Tree, BuildError> {
     let wide = grow::grow(subject, N::WIDTH, preset);
     lay_out::<N, R>(subject, &wide)
-}
-
-/// Memory with all packets in place, and by child the row of its packet and its box if it is a leaf.
-struct Laid {
-    pages: Pages,
-    rows: Vec<u32>,
-    boxes: Vec<Stretch>,
-}
-
-/// Writes the leaves of a tree with this many nodes.
-fn leaves<N: NodeWriter, R: PacketRecord>(
-    subject: &Subject<'_>,
-    wide: &WideTree,
-    nodes: usize,
-) -> Result<Laid, BuildError> {
-    let node_rows = rows_of::<N>();
-    let is_packet = |first: u32| subject.packs(wide.order[first as usize]);
-    // The row of each leaf's packet, by child.
-    let mut row = nodes as u64 * u64::from(node_rows);
-    let mut rows = Vec::with_capacity(wide.children.len());
-    for child in &wide.children {
-        rows.push(row as u32);
-        if child.count > 0 && is_packet(child.first) {
-            row += u64::from(rows_of::<R>());
-        }
-    }
-    if row > u64::from(Link::LIMIT) {
-        let limit = (Link::LIMIT as usize * ROW) >> 30;
-        return Err(BuildError::TreeTooLarge { primitives: subject.len(), gigabytes: limit });
-    }
-    let mut pages = Pages::zeroed(row as usize);
-    let mut boxes: Vec<Stretch> = vec![[Bounds3::EMPTY; 2]; wide.children.len()];
-    let write = |(child, boxes): (&grow::Child, &mut Stretch)| {
-        if child.count == 0 {
-            return None;
-        }
-        let leaf: Leaf<R> = leaf(subject, wide, child);
-        *boxes = leaf.boxes;
-        leaf.packet
-    };
-    let first_packet = nodes as u32 * node_rows;
-    let packets = pages.slice_mut::<R>(first_packet);
-    let mut rest = packets;
-    // One task for each run of children, with the packets that are theirs.
-    let mut tasks = Vec::new();
-    for (children, boxes) in wide.children.chunks(CHUNK).zip(boxes.chunks_mut(CHUNK)) {
-        let own = children.iter().filter(|c| c.count > 0 && is_packet(c.first)).count();
-        let (mine, others) = rest.split_at_mut(own);
-        rest = others;
-        tasks.push((children, boxes, mine));
-    }
-    tasks.into_par_iter().for_each(|(children, boxes, mine)| {
-        let mut free = mine.iter_mut();
-        for packet in children.iter().zip(boxes).filter_map(write) {
-            *free.next().expect("as many packets as were counted") = packet;
-        }
-    });
-    Ok(Laid { pages, rows, boxes })
 }
 
 fn lay_out<N: NodeWriter, R: PacketRecord>(
@@ -97,83 +33,193 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
         return Ok(Tree::empty());
     }
     let node_rows = rows_of::<N>();
-    let Laid { mut pages, rows, boxes } = leaves::<N, R>(subject, wide, nodes)?;
-    let mut depths = vec![0u32; nodes];
-    let mut depth = 0;
-    let mut around: Vec<Stretch> = vec![[Bounds3::EMPTY; 2]; nodes];
-    // Children come after their parents.
-    for node in (0..nodes).rev() {
-        let range = wide.nodes[node] as usize..wide.nodes[node + 1] as usize;
-        let mut record = N::EMPTY;
-        for (lane, at) in range.enumerate() {
-            let child = &wide.children[at];
-            let (stretch, link) = match child.count {
-                0 => {
-                    depths[node] = depths[node].max(depths[child.first as usize] + 1);
-                    (around[child.first as usize], Link::new(Target::Node(child.first * node_rows)))
-                }
-                _ if subject.packs(wide.order[child.first as usize]) => {
-                    (boxes[at], Link::new(Target::Packet(rows[at])))
-                }
-                _ => (boxes[at], subject.link(wide.order[child.first as usize])),
-            };
-            let planes = stretch.map(|b| [b.min.to_array(), b.max.to_array()]);
-            record.set(lane, &planes, link.0);
-            around[node] = std::array::from_fn(|end| around[node][end].union(stretch[end]));
-        }
-        depth = depth.max(depths[node]);
-        *pages.get_mut(node as u32 * node_rows) = record;
+    let plan =
+        Plan { subject, wide, node_rows, packet_rows: rows_of::<R>(), packets: packets(subject, wide) };
+    let rows =
+        nodes as u64 * u64::from(node_rows) + u64::from(plan.packets[nodes]) * u64::from(plan.packet_rows);
+    if rows > u64::from(Link::LIMIT) {
+        let limit = (Link::LIMIT as usize * ROW) >> 30;
+        return Err(BuildError::TreeTooLarge { primitives: subject.len(), gigabytes: limit });
     }
-    let bounds = around[0][0].union(around[0][1]);
+    let mut pages = Pages::zeroed(rows as usize);
+    let (records, packets) = pages.split_mut::<N, R>(nodes);
+    let written = plan.write(Subtree { name: 0, nodes: records, packets });
+    let bounds = written.boxes[0].union(written.boxes[1]);
     let root = Some(Link::new(Target::Node(0)));
-    let cut = cut(subject, wide, &rows);
-    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, cut, bounds, depth: depth + 1, ..Tree::empty() })
+    let cut = plan.cut();
+    let depth = written.levels;
+    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, cut, bounds, depth, ..Tree::empty() })
 }
 
-/// Rows and lanes of the triangles that lie in several leaves; `rows` are those of packets, by child.
-fn cut(subject: &Subject<'_>, wide: &WideTree, rows: &[u32]) -> Vec<(u32, u32)> {
-    if wide.order.len() == subject.len() {
-        return Vec::new();
+/// How many packets lie in front of those below each node, then how many there are.
+fn packets(subject: &Subject<'_>, wide: &WideTree) -> Vec<u32> {
+    let mut total = 0;
+    let mut counted = 0;
+    let before = wide.nodes.iter().map(|&end| {
+        let more = &wide.children[counted..end as usize];
+        counted = end as usize;
+        total += more.iter().filter(|child| is_packet(subject, wide, child)).count() as u32;
+        total
+    });
+    before.collect()
+}
+
+/// Whether a child is a leaf of triangles.
+fn is_packet(subject: &Subject<'_>, wide: &WideTree, child: &Child) -> bool {
+    child.count > 0 && subject.packs(wide.order[child.first as usize])
+}
+
+/// Where everything goes.
+struct Plan<'a> {
+    subject: &'a Subject<'a>,
+    wide: &'a WideTree,
+    node_rows: u32,
+    packet_rows: u32,
+    /// See [`packets`].
+    packets: Vec<u32>,
+}
+
+/// A node, which is the first of `nodes`, and all below it.
+struct Subtree<'a, N, R> {
+    name: u32,
+    nodes: &'a mut [N],
+    packets: &'a mut [R],
+}
+
+fn put<N: NodeWriter>(record: &mut N, lane: usize, boxes: &Stretch, link: Link) {
+    record.set(lane, &boxes.map(|b| [b.min.to_array(), b.max.to_array()]), link.0);
+}
+
+fn joined(a: &Stretch, b: &Stretch) -> Stretch {
+    [a[0].union(b[0]), a[1].union(b[1])]
+}
+
+/// What is known of a subtree when it is written.
+struct Written {
+    boxes: Stretch,
+    levels: u32,
+}
+
+impl Plan<'_> {
+    /// The row of a packet.
+    fn row(&self, packet: u32) -> u32 {
+        (self.packets.len() as u32 - 1) * self.node_rows + packet * self.packet_rows
     }
-    let mut leaves = vec![0u32; subject.len()];
-    wide.order.iter().for_each(|&prim| leaves[prim as usize] += 1);
-    let mut found = Vec::new();
-    for (child, &row) in wide.children.iter().zip(rows) {
-        // `first` of an inner node is none of `order`.
-        let first = if child.count > 0 { child.first as usize } else { 0 };
-        for (lane, &prim) in (0..).zip(&wide.order[first..first + child.count as usize]) {
-            if std::mem::take(&mut leaves[prim as usize]) > 1 {
-                found.push((row, lane));
+
+    /// The children of a node.
+    fn children(&self, name: u32) -> &[Child] {
+        &self.wide.children
+            [self.wide.nodes[name as usize] as usize..self.wide.nodes[name as usize + 1] as usize]
+    }
+
+    /// Writes a subtree.
+    fn write<N: NodeWriter, R: PacketRecord>(&self, subtree: Subtree<'_, N, R>) -> Written {
+        let Subtree { name, nodes, mut packets } = subtree;
+        let all = nodes.len();
+        let Some((record, mut nodes)) = nodes.split_first_mut() else { unreachable!("a subtree has a node") };
+        *record = N::EMPTY;
+        let mut boxes = self.leaves(name, record, &mut packets);
+        let children = self.children(name);
+        let mut inner = children.iter().enumerate().filter(|(_, child)| child.count == 0).peekable();
+        let mut below = Vec::with_capacity(children.len());
+        while let Some((lane, child)) = inner.next() {
+            // Subtrees lie one behind the other.
+            let end = inner.peek().map_or(name + all as u32, |(_, next)| next.first);
+            let count = self.packets[end as usize] - self.packets[child.first as usize];
+            let nodes = nodes.split_off_mut(..(end - child.first) as usize);
+            let packets = packets.split_off_mut(..count as usize);
+            let (nodes, packets) = nodes.zip(packets).expect("as many records as were counted");
+            below.push((lane, Subtree { name: child.first, nodes, packets }));
+        }
+        let write = |(lane, subtree)| (lane, self.write(subtree));
+        let written: Vec<(usize, Written)> = match all >= SHARED {
+            true => below.into_par_iter().map(write).collect(),
+            false => below.into_iter().map(write).collect(),
+        };
+        let mut levels = 0;
+        for (lane, written) in written {
+            levels = levels.max(written.levels);
+            let link = Link::new(Target::Node(children[lane].first * self.node_rows));
+            put(record, lane, &written.boxes, link);
+            boxes = joined(&boxes, &written.boxes);
+        }
+        Written { boxes, levels: levels + 1 }
+    }
+
+    /// Writes the leaves of a node; returns the box around them.
+    #[inline(never)]
+    fn leaves<N: NodeWriter, R: PacketRecord>(
+        &self,
+        name: u32,
+        record: &mut N,
+        packets: &mut &mut [R],
+    ) -> Stretch {
+        let leaves = || self.children(name).iter().enumerate().filter(|(_, child)| child.count > 0);
+        let mut around: Stretch = [Bounds3::EMPTY; 2];
+        let Some((_, first)) = leaves().next() else { return around };
+        // PERF: all of them together, so that memory is waited for once (bench kernel, build).
+        let mut triangles = [(0, [[Point3::ZERO; 3]; 2]); grow::WIDEST * grow::PACKET];
+        let count = leaves().map(|(_, child)| child.count).sum::<u32>();
+        let prims = &self.wide.order[first.first as usize..(first.first + count) as usize];
+        self.subject.triangles(prims, &mut triangles);
+        let mut packet = self.packets[name as usize];
+        for (lane, child) in leaves() {
+            let at = (child.first - first.first) as usize;
+            let (boxes, link) = if self.subject.packs(prims[at]) {
+                let triangles = &triangles[at..at + child.count as usize];
+                let place = packets.split_off_first_mut().expect("as many packets as were counted");
+                *place = R::of(triangles);
+                packet += 1;
+                (self.leaf(child, triangles), Link::new(Target::Packet(self.row(packet - 1))))
+            } else {
+                let own = self.subject.boxes(prims[at]);
+                let size = extent(&own[0]).max(extent(&own[1]));
+                let own = if self.subject.moves { own } else { [child.bounds; 2] };
+                (slackened(&own, size, self.subject.moves), self.subject.link(prims[at]))
+            };
+            put(record, lane, &boxes, link);
+            around = joined(&around, &boxes);
+        }
+        around
+    }
+
+    /// The box of a leaf of triangles is that of its fragments, with the slack of the whole triangles.
+    fn leaf(&self, child: &Child, triangles: &[Triangle]) -> Stretch {
+        let moves = self.subject.moves;
+        let mut size = 0.0f32;
+        let mut all: Stretch = [Bounds3::EMPTY; 2];
+        for (_, corners) in triangles {
+            for end in 0..=usize::from(moves) {
+                let b = around(&corners[end]);
+                size = greater(size, extent(&b));
+                if moves {
+                    all[end] = all[end].union(b);
+                }
             }
         }
+        slackened(&if moves { all } else { [child.bounds; 2] }, size, moves)
     }
-    found
-}
 
-/// The box of a leaf is that of its fragments, with the slack of the whole primitives.
-fn leaf<R: PacketRecord>(subject: &Subject<'_>, wide: &WideTree, child: &grow::Child) -> Leaf<R> {
-    let prims = &wide.order[child.first as usize..(child.first + child.count) as usize];
-    let mut size = 0.0f32;
-    let mut all: Stretch = [Bounds3::EMPTY; 2];
-    for &prim in prims {
-        let boxes = subject.boxes(prim);
-        for end in 0..2 {
-            size = size.max(extent(&boxes[end]));
-            all[end] = all[end].union(boxes[end]);
+    /// Rows and lanes of the triangles that lie in several leaves.
+    fn cut(&self) -> Vec<(u32, u32)> {
+        let (subject, wide) = (self.subject, self.wide);
+        if wide.order.len() == subject.len() {
+            return Vec::new();
         }
+        let mut leaves = vec![0u32; subject.len()];
+        wide.order.iter().for_each(|&prim| leaves[prim as usize] += 1);
+        let packets = wide.children.iter().filter(|child| is_packet(subject, wide, child));
+        let mut found = Vec::new();
+        for (packet, child) in (0..).zip(packets) {
+            let prims = &wide.order[child.first as usize..(child.first + child.count) as usize];
+            for (lane, &prim) in (0..).zip(prims) {
+                if std::mem::take(&mut leaves[prim as usize]) > 1 {
+                    found.push((self.row(packet), lane));
+                }
+            }
+        }
+        found
     }
-    if !subject.moves {
-        all = [child.bounds; 2];
-    }
-    let boxes = slackened(&all, size, subject.moves);
-    let mut corners = [(0, [[Point3::ZERO; 3]; 2]); grow::PACKET];
-    let mut count = 0;
-    for triangle in prims.iter().filter_map(|&prim| subject.triangle(prim)) {
-        corners[count] = triangle;
-        count += 1;
-    }
-    let packet = (count > 0).then(|| R::of(&corners[..count]));
-    Leaf { boxes, packet }
 }
 
 /// All triangles and things of `subject` in leaves without a tree, for brute force.

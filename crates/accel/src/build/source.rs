@@ -11,6 +11,9 @@ use crate::{
     point::Points,
 };
 
+/// Vertices or triangles that one thread looks at at a time.
+const CHUNK: usize = 1 << 14;
+
 /// A triangle mesh in object space. It may be empty; triangles without area are never hit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
@@ -130,7 +133,10 @@ impl<'a> Source<'a> {
 
     /// Boxes around everything, and around what is finite.
     pub(crate) fn bounds(&self) -> [Bounds3; 2] {
-        let around = |positions: &[Point3]| Bounds3::around(positions.iter().copied());
+        let of_chunk = |chunk: &[Point3]| Bounds3::around(chunk.iter().copied());
+        let around = |positions: &[Point3]| {
+            positions.par_chunks(CHUNK).map(of_chunk).reduce(|| Bounds3::EMPTY, Bounds3::union)
+        };
         let all = match self {
             Self::Triangles { indices, .. } | Self::Keyed { indices, .. } if indices.is_empty() => {
                 Bounds3::EMPTY
@@ -156,12 +162,14 @@ fn check<const N: usize>(
     what: &'static str,
 ) -> Result<(), BuildError> {
     BuildError::check_count(indices.len(), what)?;
-    if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+    let lies_nowhere = |p: &Point3| !p.is_finite();
+    if let Some(vertex) = positions.par_iter().with_min_len(CHUNK).position_first(lies_nowhere) {
         return Err(BuildError::VertexNotFinite { vertex });
     }
     let vertices = positions.len();
     // PERF: one maximum of all, then the search only if it is too large (bench kernel, build).
-    let largest = indices.iter().flatten().fold(0, |most, &i| most.max(i));
+    let largest_of = |chunk: &[[u32; N]]| chunk.iter().flatten().fold(0, |most, &i| most.max(i));
+    let largest = indices.par_chunks(CHUNK).map(largest_of).max().unwrap_or(0);
     if indices.is_empty() || (largest as usize) < vertices {
         return Ok(());
     }

@@ -11,6 +11,9 @@ use crate::{
 /// Boxes at the start and at the end of the tree's stretch of time.
 pub(crate) type Stretch = [Bounds3; 2];
 
+/// What the tree calls a triangle, and its corners at both ends.
+pub(super) type Triangle = (u32, [[Point3; 3]; 2]);
+
 /// Primitives of one kind, each known to the tree by a number: `first_id` and up, or a list.
 pub(crate) enum Part<'a> {
     Triangles {
@@ -86,8 +89,7 @@ impl Part<'_> {
 
     #[inline]
     fn boxes(&self, at: usize) -> Stretch {
-        let around = |[a, b, c]: [Point3; 3]| Bounds3 { min: a.min(b).min(c), max: a.max(b).max(c) };
-        let end = |end: usize| self.corners(at, end).map_or(Bounds3::EMPTY, around);
+        let end = |end: usize| self.corners(at, end).map_or(Bounds3::EMPTY, |corners| around(&corners));
         match self {
             Self::Items(list) => [list[at].1; 2],
             Self::Instances(list) => list[at].1,
@@ -97,6 +99,7 @@ impl Part<'_> {
     }
 
     /// The number the tree knows it by.
+    #[inline]
     fn id(&self, at: usize) -> u32 {
         match self {
             Self::Triangles { first_id, .. } | Self::Quads { first_id, .. } => first_id + at as u32,
@@ -141,9 +144,32 @@ impl<'a> Subject<'a> {
     }
 
     /// Its triangle and what the tree calls it; `None` for other things.
-    pub(crate) fn triangle(&self, number: u32) -> Option<(u32, [[Point3; 3]; 2])> {
+    #[inline]
+    pub(crate) fn triangle(&self, number: u32) -> Option<Triangle> {
         let (part, at) = self.find(number);
         Some((part.id(at), part.triangle(at)?))
+    }
+
+    /// Those of `numbers` that are triangles, each in its place.
+    pub(super) fn triangles(&self, numbers: &[u32], to: &mut [Triangle]) {
+        let [Part::Triangles { positions, indices, place: None, first_id }] = self.parts.as_slice() else {
+            for (number, to) in numbers.iter().zip(to) {
+                *to = self.triangle(*number).unwrap_or(*to);
+            }
+            return;
+        };
+        // PERF: short loops, in which the processor asks for many places at a time (bench kernel, build).
+        let mut names = [[0; 3]; 64];
+        for (numbers, to) in numbers.chunks(names.len()).zip(to.chunks_mut(names.len())) {
+            for (number, name) in numbers.iter().zip(&mut names) {
+                *name = indices[*number as usize];
+            }
+            for ((number, name), to) in numbers.iter().zip(&names).zip(to) {
+                let corners =
+                    [positions[name[0] as usize], positions[name[1] as usize], positions[name[2] as usize]];
+                *to = (first_id + number, [corners; 2]);
+            }
+        }
     }
 
     /// The link to something that is not a triangle.
@@ -171,6 +197,7 @@ impl Primitives for Subject<'_> {
         let [start, end] = self.boxes(prim);
         if self.moves { start.union(end) } else { start }
     }
+    #[inline]
     fn packs(&self, prim: u32) -> bool {
         !matches!(self.find(prim).0, Part::Items(_) | Part::Instances(_))
     }
@@ -183,8 +210,16 @@ impl Primitives for Subject<'_> {
     }
 }
 
+/// The box around a triangle.
+#[inline]
+pub(super) fn around([a, b, c]: &[Point3; 3]) -> Bounds3 {
+    Bounds3 { min: a.min(*b).min(*c), max: a.max(*b).max(*c) }
+}
+
 /// A box with the slack of box tests at both ends; moving ones twice, for their planes are computed.
 pub(crate) fn slackened(boxes: &Stretch, extent: f32, moves: bool) -> Stretch {
-    let once = boxes.map(|b| grown(&b, extent));
-    if moves { once.map(|b| grown(&b, extent)) } else { once }
+    match moves {
+        true => boxes.map(|b| grown(&grown(&b, extent), extent)),
+        false => [grown(&boxes[0], extent); 2],
+    }
 }

@@ -77,20 +77,6 @@ pub(super) struct Binary {
     pub(super) unit: AreaUnit,
 }
 
-impl Binary {
-    /// Levels of nodes.
-    pub(super) fn levels(&self) -> u32 {
-        let (mut pending, mut levels) = (vec![(0, 1)], 0);
-        while let Some((name, level)) = pending.pop() {
-            levels = levels.max(level);
-            if let Node::Inner(below) = self.nodes[name as usize].node() {
-                pending.extend(below.map(|name| (name, level + 1)));
-            }
-        }
-        levels
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

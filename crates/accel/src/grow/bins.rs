@@ -41,7 +41,7 @@ pub(super) struct Plane {
 impl Slices {
     /// For `n` items whose centres are, mostly, in `centers`.
     pub(super) fn new(centers: &Hull, n: usize) -> Self {
-        let count = (4 + n / 2).min(BINS);
+        let count = (4 + n / 8).min(BINS);
         let extent = centers.hi - centers.lo;
         let scale = f32x4::splat(count as f32) / extent;
         let sound = scale.simd_lt(f32x4::splat(f32::INFINITY)) & extent.simd_gt(f32x4::ZERO);
@@ -61,7 +61,8 @@ impl Plane {
     #[inline(always)]
     pub(super) fn is_left(&self, item: &Item) -> bool {
         let place = (item.center_on(self.axis) - self.origin) * self.scale;
-        place < self.bin || place.is_nan()
+        let is_right = place >= self.bin;
+        !is_right
     }
 }
 
@@ -73,20 +74,38 @@ pub(super) struct Bins {
 }
 
 impl Bins {
+    /// Nothing in any.
+    pub(super) const EMPTY: Self = Self { hulls: [[Hull::EMPTY; 3]; BINS], counts: [[0; 4]; BINS] };
+
     /// What `items` fall into.
-    #[inline(always)]
     pub(super) fn new(slices: &Slices, items: &[Item]) -> Self {
-        let mut bins = Self { hulls: [[Hull::EMPTY; 3]; BINS], counts: [[0; 4]; BINS] };
-        for item in items {
+        let mut bins = Self::EMPTY;
+        bins.fill(slices, items);
+        bins
+    }
+
+    /// Forgets what has fallen into them before, and takes `items`.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, slices: &Slices, items: &[Item]) {
+        self.hulls[..slices.count].fill([Hull::EMPTY; 3]);
+        self.counts[..slices.count].fill([0; 4]);
+        let mut add = |item: &Item| {
             let places = slices.of(item.center());
             for (axis, place) in places.into_iter().enumerate().take(3) {
                 let bin = place as usize % BINS;
-                let hull = &mut bins.hulls[bin][axis];
+                let hull = &mut self.hulls[bin][axis];
                 *hull = hull.joined(item.0);
-                bins.counts[bin][axis] += 1;
+                self.counts[bin][axis] += 1;
             }
+        };
+        // PERF: neighbours often fall into the same slice, and each would wait for what the one before it has written
+        // there. So the two halves take turns (bench kernel, build).
+        let (first, second) = items.split_at(items.len() / 2);
+        for (a, b) in first.iter().zip(second) {
+            add(a);
+            add(b);
         }
-        bins
+        second[first.len()..].iter().for_each(add);
     }
 
     /// All together.

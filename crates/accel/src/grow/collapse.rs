@@ -11,13 +11,11 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use rayon::prelude::*;
 
 use super::{
-    PACKET, Primitives, WideTree,
+    PACKET, Primitives, WIDEST, WideTree,
     binary::{Binary, Node},
     emit,
 };
 
-/// Children of a node at most, whatever the width asked for.
-pub(super) const WIDEST: usize = 16;
 /// Above this level subtrees are left to other threads if those are idle.
 const LEVELS_SHARED: u32 = 14;
 
@@ -64,13 +62,10 @@ struct Forest {
 
 /// Collapses a binary tree, which is not empty, to nodes of `width`; `None` if the result would be too deep.
 pub(super) fn collapse(tree: &Binary, prims: &impl Primitives, width: usize) -> Option<WideTree> {
-    if tree.levels() > LEVELS_MAX {
-        return None;
-    }
     let width = width.clamp(2, WIDEST);
     let of_node = (0..tree.nodes.len()).into_par_iter().map(|_| AtomicU64::new(0)).collect();
     let choices = Choices { width, of_node };
-    solve(&Problem { tree, prims, choices: &choices }, 0, 0);
+    solve(&Problem { tree, prims, choices: &choices }, 0, 0)?;
     emit::emit(tree, &choices)
 }
 
@@ -80,7 +75,8 @@ struct Problem<'a, P> {
     choices: &'a Choices,
 }
 
-fn solve<P: Primitives>(problem: &Problem<P>, name: u32, level: u32) -> Forest {
+/// The forests below a node; `None` if the tree is too deep.
+fn solve<P: Primitives>(problem: &Problem<P>, name: u32, level: u32) -> Option<Forest> {
     let item = &problem.tree.nodes[name as usize];
     let area = problem.tree.unit.area(&item.0);
     match item.node() {
@@ -89,8 +85,9 @@ fn solve<P: Primitives>(problem: &Problem<P>, name: u32, level: u32) -> Forest {
             costs[0] = area;
             let prim = problem.tree.order[first as usize];
             let packs = count > 1 || problem.prims.packs(prim);
-            Forest { costs, roots: 1, count: count as usize, packs }
+            Some(Forest { costs, roots: 1, count: count as usize, packs })
         }
+        Node::Inner(_) if level == LEVELS_MAX => None,
         Node::Inner([left, right]) => {
             let below = |name| solve(problem, name, level + 1);
             let (left, right) = if level < LEVELS_SHARED {
@@ -98,9 +95,9 @@ fn solve<P: Primitives>(problem: &Problem<P>, name: u32, level: u32) -> Forest {
             } else {
                 (below(left), below(right))
             };
-            let (forest, choice) = join(&left, &right, area, problem.choices.width);
+            let (forest, choice) = join(&left?, &right?, area, problem.choices.width);
             problem.choices.of_node[name as usize].store(choice, Relaxed);
-            forest
+            Some(forest)
         }
     }
 }

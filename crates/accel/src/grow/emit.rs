@@ -1,14 +1,18 @@
 //! Writes down the wide tree that was chosen, depth first.
+use rayon::prelude::*;
+
 use super::{
-    Child, DEPTH_MAX, WideTree,
+    Child, DEPTH_MAX, WIDEST, WideTree,
     binary::{Binary, Node},
-    collapse::{Choices, WIDEST},
+    collapse::Choices,
 };
+
+/// Above this level of wide nodes subtrees are written apart, by all threads, and put together afterwards.
+const LEVELS_APART: u32 = 1;
 
 /// The wide tree of `choices`, if it is not too deep.
 pub(super) fn emit(tree: &Binary, choices: &Choices) -> Option<WideTree> {
     let mut emission = Emission { tree, choices, wide: WideTree::default(), levels: 1 };
-    emission.wide.order.reserve_exact(tree.order.len());
     if emission.is_leaf(0) {
         emission.wide.nodes.push(0);
         emission.child(0);
@@ -22,6 +26,7 @@ pub(super) fn emit(tree: &Binary, choices: &Choices) -> Option<WideTree> {
     wide.nodes.push(wide.children.len() as u32);
     wide.nodes.shrink_to_fit();
     wide.children.shrink_to_fit();
+    wide.order.shrink_to_fit();
     Some(wide)
 }
 
@@ -59,12 +64,43 @@ impl Emission<'_> {
         for &root in &roots.names[..roots.count] {
             self.child(root);
         }
+        let inner = |(_, root): &(usize, &u32)| !self.is_leaf(**root);
+        if level <= LEVELS_APART {
+            let below: Vec<_> = roots.names[..roots.count].iter().enumerate().filter(inner).collect();
+            let below = below.into_par_iter().map(|(place, &root)| (place, self.apart(root, level + 1)));
+            for (place, piece) in below.collect::<Vec<_>>() {
+                self.wide.children[first + place].first = self.wide.nodes.len() as u32;
+                self.append(piece);
+            }
+            return;
+        }
         for (place, &root) in roots.names[..roots.count].iter().enumerate() {
             if !self.is_leaf(root) {
                 self.wide.children[first + place].first = self.wide.nodes.len() as u32;
                 self.node(root, level + 1);
             }
         }
+    }
+
+    /// A subtree by itself.
+    fn apart(&self, name: u32, level: u32) -> Self {
+        let mut piece =
+            Self { tree: self.tree, choices: self.choices, wide: WideTree::default(), levels: level };
+        piece.node(name, level);
+        piece
+    }
+
+    /// Adds a subtree that was written by itself.
+    fn append(&mut self, piece: Self) {
+        self.levels = self.levels.max(piece.levels);
+        let (wide, piece) = (&mut self.wide, piece.wide);
+        let before = [wide.nodes.len(), wide.children.len(), wide.order.len()].map(|n| n as u32);
+        wide.nodes.extend(piece.nodes.iter().map(|first| first + before[1]));
+        wide.children.extend(piece.children.iter().map(|child| {
+            let numbered_from = if child.count == 0 { before[0] } else { before[2] };
+            Child { first: child.first + numbered_from, ..*child }
+        }));
+        wide.order.extend_from_slice(&piece.order);
     }
 
     /// Finds the cheapest forest of at most `most` trees below a binary node.

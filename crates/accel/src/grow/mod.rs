@@ -54,6 +54,8 @@ pub enum Preset {
     High,
 }
 
+/// Children of a node at most, whatever the width asked for.
+pub(crate) const WIDEST: usize = 16;
 /// Most primitives that share a leaf.
 pub(crate) const PACKET: usize = 8;
 /// Levels of the tree at most, the root being one.
@@ -131,7 +133,7 @@ impl Plan {
         match preset {
             Preset::Fast => Self { leaf_max: PACKET, effort: None, cuts: false },
             Preset::Balanced => {
-                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 4, fraction: 0.1 }), cuts: false }
+                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 3, fraction: 0.1 }), cuts: false }
             }
             Preset::High => {
                 Self { leaf_max: 1, effort: Some(Effort { rounds: 8, fraction: 0.5 }), cuts: true }

@@ -10,6 +10,7 @@ use super::{
     partition::{self, Around},
     top_down::{Grower, Plot},
 };
+use crate::simd::roomy;
 
 /// Ranges longer than this are split by all threads together.
 const SHARED: usize = 1 << 14;
@@ -28,9 +29,16 @@ pub(super) fn around(items: &[Item]) -> Around {
     chunks.reduce_with(Around::joined).expect("at least one item")
 }
 
+/// This many items, which all threads touch first, on big pages.
+fn blank(count: usize) -> Vec<Item> {
+    let mut items = roomy(count);
+    items.par_extend(rayon::iter::repeat_n(Item::ZERO, count).with_min_len(CHUNK));
+    items
+}
+
 /// Grows the subtrees over all items.
 pub(super) fn grow<P: Primitives>(grower: &Grower<P>, plot: Plot, items: &mut [Item]) -> Top<Vec<Item>> {
-    let mut spare = if items.len() > SHARED { vec![Item::ZERO; items.len()] } else { Vec::new() };
+    let mut spare = if items.len() > SHARED { blank(items.len()) } else { Vec::new() };
     let top = split(grower, plot, items, &mut spare, false);
     drop(spare);
     run(grower, top, items, 0)
@@ -112,17 +120,20 @@ pub(super) fn run<P: Primitives>(
         }
         Top::Task(plot) => {
             let mut nodes = Vec::with_capacity(2 * items.len().div_ceil(grower.leaf_max));
-            grower.grow(Plot { first, ..plot }, items, &mut nodes);
+            let mut bins = Bins::EMPTY;
+            grower.grow(Plot { first, ..plot }, items, &mut nodes, &mut bins);
             Top::Task(nodes)
         }
     }
 }
 
 impl Top<Vec<Item>> {
-    /// All nodes, which then point to places.
-    pub(super) fn assembled(self) -> Vec<Item> {
-        let mut nodes = Vec::with_capacity(self.len());
-        self.append(&mut nodes);
+    /// All nodes, which then point to places, in memory that `room` has held.
+    pub(super) fn assembled(self, room: Vec<Item>) -> Vec<Item> {
+        let mut nodes = room;
+        nodes.resize(self.len(), Item::ZERO);
+        nodes.shrink_to_fit();
+        self.place(&mut nodes, 0);
         nodes
     }
 
@@ -133,23 +144,24 @@ impl Top<Vec<Item>> {
         }
     }
 
-    fn append(self, nodes: &mut Vec<Item>) {
+    /// Writes all nodes, the first of which is number `base` of all.
+    fn place(self, nodes: &mut [Item], base: u32) {
         match self {
             Self::Split { hull, below, .. } => {
-                let node = nodes.len();
-                nodes.push(Item::ZERO);
                 let [left, right] = *below;
-                left.append(nodes);
-                let right_place = nodes.len() as u32;
-                right.append(nodes);
-                nodes[node] = Item::inner(&hull, [node as u32 + 1, right_place]);
+                let (left_place, right_place) = (base + 1, base + 1 + left.len() as u32);
+                let Some((node, rest)) = nodes.split_first_mut() else { return };
+                *node = Item::inner(&hull, [left_place, right_place]);
+                let (first, second) = rest.split_at_mut(left.len());
+                rayon::join(|| left.place(first, left_place), || right.place(second, right_place));
             }
             Self::Task(subtree) => {
-                let base = nodes.len() as u32;
-                nodes.extend((base..).zip(subtree).map(|(place, node)| match node.node() {
-                    Node::Inner([left, right]) => Item::inner(&node.0, [place + left, place + right]),
-                    Node::Leaf { .. } => node,
-                }));
+                for ((node, to), place) in subtree.into_iter().zip(nodes).zip(base..) {
+                    *to = match node.node() {
+                        Node::Inner([left, right]) => Item::inner(&node.0, [place + left, place + right]),
+                        Node::Leaf { .. } => node,
+                    };
+                }
             }
         }
     }

@@ -11,6 +11,7 @@ use super::{
     partition::{self, Around},
     shared::{self, CHUNK, Top},
 };
+use crate::simd::roomy;
 
 /// What is known of a range of items.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +34,8 @@ pub(super) struct Grower<'a, P> {
 /// References to all primitives, of which there is at least one, and the unit for areas of boxes around them.
 pub(super) fn references(prims: &impl Primitives) -> (Vec<Item>, AreaUnit) {
     let reference = |prim: u32| Item::reference(&Hull::new(&prims.bounds(prim)), prim);
-    let items: Vec<Item> =
-        (0..prims.len() as u32).into_par_iter().with_min_len(CHUNK).map(reference).collect();
+    let mut items: Vec<Item> = roomy(prims.len());
+    items.par_extend((0..prims.len() as u32).into_par_iter().with_min_len(CHUNK).map(reference));
     let unit = AreaUnit::new(&shared::around(&items).hull);
     (items, unit)
 }
@@ -56,8 +57,7 @@ pub(super) fn build(
         }
     };
     let order = items.par_iter().with_min_len(CHUNK).map(Item::prim).collect();
-    drop(items);
-    Binary { nodes: subtrees.assembled(), order, unit }
+    Binary { nodes: subtrees.assembled(items), order, unit }
 }
 
 impl Plot {
@@ -85,8 +85,8 @@ impl Plot {
 }
 
 impl<P: Primitives> Grower<'_, P> {
-    /// Appends the nodes over a range. They point to their children by the distance.
-    pub(super) fn grow(&self, plot: Plot, items: &mut [Item], nodes: &mut Vec<Item>) {
+    /// Appends the nodes over a range. They point to their children by the distance. What `bins` hold does not matter.
+    pub(super) fn grow(&self, plot: Plot, items: &mut [Item], nodes: &mut Vec<Item>, bins: &mut Bins) {
         let (hull, n) = (plot.around.hull, items.len());
         let packs = |item: &Item| self.prims.packs(item.prim());
         if n == 1 || n <= self.leaf_max && items.iter().all(packs) {
@@ -95,33 +95,34 @@ impl<P: Primitives> Grower<'_, P> {
         }
         let node = nodes.len();
         nodes.push(Item::ZERO);
-        let (middle, around) = self.divide(&plot, items).unwrap_or_else(|| plot.halve(items));
+        let (middle, around) = self.divide(&plot, items, bins).unwrap_or_else(|| plot.halve(items));
         let [left, right] = plot.split(middle, around);
         let (items_left, items_right) = items.split_at_mut(middle);
-        self.grow(left, items_left, nodes);
+        self.grow(left, items_left, nodes, bins);
         let right_place = (nodes.len() - node) as u32;
-        self.grow(right, items_right, nodes);
+        self.grow(right, items_right, nodes, bins);
         nodes[node] = Item::inner(&hull, [1, right_place]);
     }
 
     /// Splits two or more items by the surface area heuristic, if that can.
     #[inline(never)]
-    fn divide(&self, plot: &Plot, items: &mut [Item]) -> Option<(usize, [Around; 2])> {
+    fn divide(&self, plot: &Plot, items: &mut [Item], bins: &mut Bins) -> Option<(usize, [Around; 2])> {
         if !plot.has_levels_for(items.len()) {
             return None;
         }
         let mut around = plot.around;
-        let plane = self.plane(&around, items).or_else(|| {
+        let plane = self.plane(&around, items, bins).or_else(|| {
             // What was known of the centres may have been too wide.
             around = Around::new(items);
-            self.plane(&around, items)
+            self.plane(&around, items, bins)
         })?;
         Some((partition::by_plane(items, &plane), around.sides(&plane)))
     }
 
     #[inline(always)]
-    fn plane(&self, around: &Around, items: &[Item]) -> Option<Plane> {
+    fn plane(&self, around: &Around, items: &[Item], bins: &mut Bins) -> Option<Plane> {
         let slices = Slices::new(&around.centers, items.len());
-        Bins::new(&slices, items).best(&slices, items.len(), &self.unit)
+        bins.fill(&slices, items);
+        bins.best(&slices, items.len(), &self.unit)
     }
 }

@@ -1,5 +1,8 @@
 //! Nodes: the boxes of `N` children, plane by plane.
-use crate::{lanes::Lanes, simd::{Record, flat}};
+use crate::{
+    lanes::Lanes,
+    simd::{Record, flat},
+};
 
 /// `N` boxes. An empty lane has its lower planes at infinity and its upper ones at minus infinity: no ray enters it.
 #[derive(Clone, Copy, Debug)]

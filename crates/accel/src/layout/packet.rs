@@ -1,7 +1,10 @@
 //! Leaves: up to eight triangles, vertex by vertex and axis by axis.
 use durer_core::math::Point3;
 
-use crate::{lanes::Lanes, simd::{Record, flat}};
+use crate::{
+    lanes::Lanes,
+    simd::{Record, flat},
+};
 
 /// Triangles per packet.
 pub(crate) const PACKET: usize = 8;

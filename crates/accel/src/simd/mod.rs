@@ -9,8 +9,8 @@ mod stack;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub(crate) use pages::{Pages, ROW, Record, roomy};
 pub(crate) use records::flat;
-pub(crate) use pages::{Pages, ROW, Record};
 pub(crate) use stack::{Slots, Stack};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::{Avx2, Avx512};

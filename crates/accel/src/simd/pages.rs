@@ -21,6 +21,8 @@ pub(crate) unsafe trait Record: Copy {}
 
 /// Rows of plain numbers, zero at first.
 pub(crate) struct Pages {
+    /// What was allocated: a little more than the rows, which begin at `start`.
+    memory: NonNull<u8>,
     start: NonNull<u8>,
     rows: usize,
 }
@@ -34,22 +36,27 @@ impl Pages {
     /// `rows` rows of zeros.
     pub(crate) fn zeroed(rows: usize) -> Self {
         if rows == 0 {
-            return Self { start: NonNull::dangling(), rows };
+            return Self { memory: NonNull::dangling(), start: NonNull::dangling(), rows };
         }
-        let layout = Self::layout(rows);
+        let (layout, align) = Self::layout(rows);
+        // PERF: asked for with the alignment that any memory has, so that fresh memory, which the system has cleared, is not
+        // cleared again: each page is first touched by the thread that writes to it (bench kernel, build).
         // SAFETY: the size of the layout is not 0.
-        let start = unsafe { alloc::alloc(layout) };
-        let Some(start) = NonNull::new(start) else { alloc::handle_alloc_error(layout) };
-        ask_for_big_pages(start, layout.size());
-        // SAFETY: `start` was just allocated with this size.
-        unsafe { start.as_ptr().write_bytes(0, layout.size()) };
-        Self { start, rows }
+        let memory = unsafe { alloc::alloc_zeroed(layout) };
+        let Some(memory) = NonNull::new(memory) else { alloc::handle_alloc_error(layout) };
+        let gap = memory.addr().get().next_multiple_of(align) - memory.addr().get();
+        // SAFETY: the gap is less than `align`, which the layout has besides the rows.
+        let start = unsafe { memory.add(gap) };
+        ask_for_big_pages(start, rows * ROW);
+        Self { memory, start, rows }
     }
 
-    fn layout(rows: usize) -> Layout {
+    /// What to allocate for some rows, and what to align them to within.
+    fn layout(rows: usize) -> (Layout, usize) {
         let size = rows.checked_mul(ROW).expect("a tree fits into memory");
         let align = if size >= BIG_PAGE { BIG_PAGE } else { LINE };
-        Layout::from_size_align(size, align).expect("a tree fits into memory")
+        let size = size.checked_add(align).expect("a tree fits into memory");
+        (Layout::from_size_align(size, align_of::<u64>()).expect("a tree fits into memory"), align)
     }
 
     pub(crate) fn bytes(&self) -> usize {
@@ -96,6 +103,26 @@ impl Pages {
         }
     }
 
+    /// The first `count` records, of one sort, and the rest, of another, to change.
+    ///
+    /// # Panics
+    /// If there are not as many rows.
+    pub(crate) fn split_mut<A: Record, B: Record>(&mut self, count: usize) -> (&mut [A], &mut [B]) {
+        const { assert!(align_of::<A>() <= ROW && size_of::<A>().is_multiple_of(ROW)) };
+        const { assert!(align_of::<B>() <= ROW && size_of::<B>().is_multiple_of(ROW)) };
+        let first = count * (size_of::<A>() / ROW);
+        let rest = self.rows.checked_sub(first).expect("rows of the tree") / (size_of::<B>() / ROW);
+        if self.rows == 0 {
+            return (&mut [], &mut []);
+        }
+        // SAFETY: both slices lie within the rows, one behind the other; aligned and plain as in `get`.
+        unsafe {
+            let second = self.start.as_ptr().add(first * ROW);
+            let records = std::slice::from_raw_parts_mut(self.start.as_ptr().cast::<A>(), count);
+            (records, std::slice::from_raw_parts_mut(second.cast::<B>(), rest))
+        }
+    }
+
     #[inline(always)]
     fn check<R: Record>(&self, row: u32) {
         const { assert!(align_of::<R>() <= ROW && size_of::<R>().is_multiple_of(ROW)) };
@@ -113,7 +140,7 @@ impl Drop for Pages {
     fn drop(&mut self) {
         if self.rows > 0 {
             // SAFETY: allocated by `zeroed` with the same layout.
-            unsafe { alloc::dealloc(self.start.as_ptr(), Self::layout(self.rows)) };
+            unsafe { alloc::dealloc(self.memory.as_ptr(), Self::layout(self.rows).0) };
         }
     }
 }
@@ -131,6 +158,18 @@ impl fmt::Debug for Pages {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Pages").field("bytes", &self.bytes()).finish_non_exhaustive()
     }
+}
+
+/// An empty vector with room for `count` values, on big pages if that are many.
+pub(crate) fn roomy<T>(count: usize) -> Vec<T> {
+    let room = Vec::with_capacity(count);
+    if size_of::<T>() * count >= 2 * BIG_PAGE {
+        let begin = NonNull::from(room.as_slice()).cast::<u8>();
+        let gap = begin.addr().get().next_multiple_of(BIG_PAGE) - begin.addr().get();
+        // SAFETY: the gap is less than a big page, and the room is larger.
+        ask_for_big_pages(unsafe { begin.add(gap) }, size_of::<T>() * room.capacity() - gap);
+    }
+    room
 }
 
 /// Linux: fewer entries of the translation buffer. A refusal costs speed only, so it is not looked at.
@@ -168,6 +207,25 @@ mod tests {
         }
         let mut none = Pages::zeroed(0).clone();
         assert_eq!((none.bytes(), none.slice_mut::<Numbers>(0).len()), (0, 0));
+    }
+
+    #[test]
+    fn two_sorts_of_records_lie_one_behind_the_other() {
+        let mut pages = Pages::zeroed(7);
+        let (first, second) = pages.split_mut::<Numbers, Numbers>(3);
+        assert_eq!((first.len(), second.len()), (3, 4));
+        (first[2].0[0], second[0].0[0]) = (1, 2);
+        assert_eq!([2, 3].map(|row| pages.get::<Numbers>(row).0[0]), [1, 2]);
+    }
+
+    #[test]
+    fn big_pages_change_nothing_but_speed() {
+        for count in [0, 3, 3 * BIG_PAGE / 4] {
+            let mut room = roomy::<u32>(count);
+            assert!(room.is_empty() && room.capacity() >= count);
+            room.extend(0..count as u32);
+            assert!(room.iter().copied().eq(0..count as u32));
+        }
     }
 
     #[test]
