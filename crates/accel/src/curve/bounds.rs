@@ -11,7 +11,7 @@ use super::{
 use crate::slab::{extent, grown};
 
 /// Most parts of a segment, each half as long as those of half as many.
-const PARTS_MAX: u32 = 8;
+const PARTS_MAX: u32 = 4;
 /// Parts are halved while that leaves less than this part of the area of their boxes, which is what they cost.
 const WORTH: f32 = 0.7;
 
