@@ -41,7 +41,7 @@ pub(super) struct Plane {
 impl Slices {
     /// For `n` items whose centres are, mostly, in `centers`.
     pub(super) fn new(centers: &Hull, n: usize) -> Self {
-        let count = (4 + n / 8).min(BINS);
+        let count = (4 + n / 2).min(BINS);
         let extent = centers.hi - centers.lo;
         let scale = f32x4::splat(count as f32) / extent;
         let sound = scale.simd_lt(f32x4::splat(f32::INFINITY)) & extent.simd_gt(f32x4::ZERO);
