@@ -113,6 +113,7 @@ fn meet<V: Lanes, const ROBUST: bool>(
     let spread = least.mul(*most);
     let ordinary = V::splat(token, TINY).le(spread).and(spread.le(V::splat(token, shear.huge)));
     let within = inside.and(ordinary).and(t_min.le(t));
+    let met = t;
     if !ROBUST {
         t = t.max(V::splat(token, reach.floor));
         t.store(&mut found.t);
@@ -128,30 +129,71 @@ fn meet<V: Lanes, const ROBUST: bool>(
     if bits & !ahead | odd == 0 {
         return bits;
     }
-    let kept = keep::<V>(token, shear, reach, group.anew(), reciprocal, t);
+    let kept = keep::<V>(token, shear, reach.t_min, group.anew(), e, reciprocal, met);
     settle(shear, reach, (bits & (ahead | kept), odd), |lane| group.triangle(lane), found)
 }
 
-/// Of triangles that reach back beyond where the ray begins: which hits are farther than the bound on their error, on
+/// Of triangles that reach back beyond where the ray begins: which hits at `t` are farther than the bound on their error, on
 /// triangles whose box the ray has not left before it begins.
 #[inline(always)]
 fn keep<V: Lanes>(
     token: V::Token,
     shear: &Shear,
-    reach: Reach,
+    t_min: f32,
     group: impl Corners<V>,
+    e: &[V; 3],
     reciprocal: V,
     t: V,
 ) -> u32 {
     let z0 = group.coordinate(token, shear, 0, 2);
     let z1 = group.coordinate(token, shear, 1, 2);
     let z2 = group.coordinate(token, shear, 2, 2);
-    let a = across(token, shear, group, 0, z0);
-    let b = across(token, shear, group, 1, z1);
-    let c = across(token, shear, group, 2, z2);
-    let bound = error_bound(token, [a, b, c], [z0, z1, z2], reciprocal, V::splat(token, shear.z));
+    let a = Corner::new(token, across(token, shear, group, 0, z0), z0);
+    let b = Corner::new(token, across(token, shear, group, 1, z1), z1);
+    let c = Corner::new(token, across(token, shear, group, 2, z2), z2);
+    let sz = V::splat(token, shear.z);
+    let (z0, z1, z2) = (z0.mul(sz), z1.mul(sz), z2.mul(sz));
+    let edges = b.edge_error(token, &c).mul(z0.sub(t).abs());
+    let edges = edges.add(c.edge_error(token, &a).mul(z1.sub(t).abs()));
+    let edges = edges.add(a.edge_error(token, &b).mul(z2.sub(t).abs()));
+    let sums = e[0].mul(z0).abs().add(e[1].mul(z1).abs()).add(e[2].mul(z2).abs());
+    let bound = edges.add(sums.mul(V::splat(token, gamma(SUM_ROUNDINGS)))).mul(reciprocal.abs());
     let exit = exit(token, shear, group);
-    bound.lt(t.abs()).and(V::splat(token, reach.t_min).le(exit)).bits()
+    bound.lt(t.abs()).and(V::splat(token, t_min).le(exit)).bits()
+}
+
+/// Roundings of a term of the weighted mean: of its depth 2, its product 1, the sums 4, the quotient 1.
+pub(super) const SUM_ROUNDINGS: u32 = 8;
+/// Roundings of a vertex on its way across the ray: its difference from the origin, shear, product, difference.
+pub(super) const CORNER_ROUNDINGS: u32 = 5;
+/// Roundings of an edge function: products and their difference; one more for what is of second order.
+pub(super) const EDGE_ROUNDINGS: u32 = 3;
+
+/// A vertex across the ray in magnitude, and the error of that.
+struct Corner<V> {
+    size: [V; 2],
+    error: [V; 2],
+}
+
+impl<V: Lanes> Corner<V> {
+    #[inline(always)]
+    fn new(token: V::Token, [x, y]: [V; 2], z: V) -> Self {
+        let g = V::splat(token, gamma(CORNER_ROUNDINGS));
+        let (x, y, z) = (x.abs(), y.abs(), z.abs());
+        Self { size: [x, y], error: [x.add(z).mul(g), y.add(z).mul(g)] }
+    }
+
+    /// Bound on the error of the edge function of two vertices, whose depths count by how far they are from the hit: the
+    /// error of a quotient of sums `sum(e z) / sum(e)` is `sum(de (z - t)) / sum(e)` (Higham 2002, chapter 1). Bounds
+    /// by the whole triangle's size instead would call every hit on a long sliver noise.
+    #[inline(always)]
+    fn edge_error(&self, token: V::Token, other: &Self) -> V {
+        let (p, q) = (self, other);
+        let products = p.size[0].mul(q.size[1]).add(p.size[1].mul(q.size[0]));
+        let first = p.size[0].mul(q.error[1]).add(q.size[1].mul(p.error[0]));
+        let second = p.size[1].mul(q.error[0]).add(q.size[0].mul(p.error[1]));
+        products.mul(V::splat(token, gamma(EDGE_ROUNDINGS))).add(first).add(second)
+    }
 }
 
 /// Tests the lanes of `odd` in f64; the others stay hit as `bits` says.
@@ -174,25 +216,6 @@ fn settle<A: AsMut<[f32]>>(
         }
     }
     bits
-}
-
-/// The largest magnitude.
-#[inline(always)]
-fn largest<V: Lanes>(a: V, b: V, c: V) -> V {
-    a.abs().max(b.abs()).max(c.abs())
-}
-
-/// Bound on the absolute error of `t` (Physically Based Rendering, 4th edition, section 6.8.7): the roundings of the
-/// projection, at most 5 of each coordinate, carried through edge functions and weighted mean.
-#[inline(always)]
-fn error_bound<V: Lanes>(token: V::Token, [a, b, c]: [[V; 2]; 3], z: [V; 3], reciprocal: V, sz: V) -> V {
-    let (x, y) = (largest(a[0], b[0], c[0]), largest(a[1], b[1], c[1]));
-    let z = largest(z[0], z[1], z[2]);
-    // d_edge = 2 (g2 x y + dy x + dx y) with dx = g5 (x + z), dy = g5 (y + z); weights are at most 1.
-    let (g1, g5, g12) = (V::splat(token, gamma(1)), V::splat(token, gamma(5)), V::splat(token, gamma(12)));
-    let products = x.mul(y).mul(g12).add(x.add(y).mul(z).mul(g5));
-    let weights = products.mul(reciprocal.abs()).add(g1);
-    weights.mul(z).mul(sz.abs()).mul(V::splat(token, 6.0))
 }
 
 /// Where the ray meets the planes through each vertex along one of its first two axes; 0 along an axis that it hardly moves

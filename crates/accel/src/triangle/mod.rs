@@ -170,7 +170,7 @@ fn exact(shear: &Shear, triangle: &[Point3; 3], reach: &Reach) -> Option<Triangl
     let [entry, exit] = window(shear, &relative);
     let begin = reach.t_min.max(0.0);
     if relative.iter().any(|v| v[2] * shear.z <= begin) {
-        let is_noise = f64::from(t.abs()) <= error_bound(&projected, reciprocal, scale);
+        let is_noise = f64::from(t.abs()) <= error_bound(&projected, &[e0, e1, e2], reciprocal, scale, t);
         if is_noise || exit < reach.t_min {
             return None;
         }
@@ -179,11 +179,23 @@ fn exact(shear: &Shear, triangle: &[Point3; 3], reach: &Reach) -> Option<Triangl
     (t <= reach.t_max).then_some(TriangleHit { t, weights: weights.map(|w| w as f32) })
 }
 
-/// As `lanes::error_bound`, in f64, so that it cannot overflow.
-fn error_bound(projected: &[[f64; 3]; 3], reciprocal: f64, scale: f64) -> f64 {
+/// As in `lanes::keep`, in f64.
+fn error_bound(p: &[[f64; 3]; 3], e: &[f64; 3], reciprocal: f64, scale: f64, t: f32) -> f64 {
     let g = |n| f64::from(durer_core::math::error::gamma(n));
-    let [x, y, z] = std::array::from_fn(|axis| projected.iter().map(|v| v[axis].abs()).fold(0.0, f64::max));
-    6.0 * z * (g(1) + (g(12) * x * y + g(5) * z * (x + y)) * reciprocal.abs()) * scale.abs()
+    let error = |v: &[f64; 3], axis: usize| g(lanes::CORNER_ROUNDINGS) * (v[axis].abs() + v[2].abs());
+    let edge = |p: &[f64; 3], q: &[f64; 3]| {
+        let half = |a: usize, b: usize| p[a].abs() * error(q, b) + q[b].abs() * error(p, a);
+        let products = (p[0] * q[1]).abs() + (p[1] * q[0]).abs();
+        g(lanes::EDGE_ROUNDINGS) * products + half(0, 1) + half(1, 0)
+    };
+    let sum: f64 = (0..3)
+        .map(|i| {
+            let depth = p[i][2] * scale;
+            let off = edge(&p[(i + 1) % 3], &p[(i + 2) % 3]) * (depth - f64::from(t)).abs();
+            off + g(lanes::SUM_ROUNDINGS) * (e[i] * depth).abs()
+        })
+        .sum();
+    sum * reciprocal.abs()
 }
 
 /// As `lanes::entry` and `lanes::exit`.
