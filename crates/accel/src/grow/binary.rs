@@ -25,6 +25,7 @@ pub(super) enum Node {
 impl Item {
     pub(super) const ZERO: Self = Self(Hull { lo: f32x4::ZERO, hi: f32x4::ZERO });
 
+    #[inline(always)]
     fn new(hull: &Hull, a: u32, b: u32) -> Self {
         let with = |v: f32x4, word: u32| {
             let [x, y, z, _] = v.to_array();
@@ -32,12 +33,15 @@ impl Item {
         };
         Self(Hull { lo: with(hull.lo, a), hi: with(hull.hi, b) })
     }
+    #[inline(always)]
     pub(super) fn reference(hull: &Hull, prim: u32) -> Self {
         Self::new(hull, prim, 0)
     }
+    #[inline(always)]
     pub(super) fn inner(hull: &Hull, children: [u32; 2]) -> Self {
         Self::new(hull, children[0], children[1])
     }
+    #[inline(always)]
     pub(super) fn leaf(hull: &Hull, first: u32, count: usize) -> Self {
         Self::new(hull, first, LEAF + count as u32)
     }

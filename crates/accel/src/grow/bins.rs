@@ -9,11 +9,14 @@ use super::{
     binary::Item,
     hull::{AreaUnit, Hull},
 };
+use crate::simd::{Work, widest};
 
 /// Slices an axis at most.
 const BINS: usize = 16;
 /// Primitives that a side costs on top of those it has.
 const OVERHEAD: f32 = 4.0;
+/// From so many items on, each half falls into bins of its own first.
+const APART: usize = 512;
 
 /// Which slice a centre falls into.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +43,7 @@ pub(super) struct Plane {
 
 impl Slices {
     /// For `n` items whose centres are, mostly, in `centers`.
+    #[inline(always)]
     pub(super) fn new(centers: &Hull, n: usize) -> Self {
         let count = (4 + n / 2).min(BINS);
         let extent = centers.hi - centers.lo;
@@ -53,6 +57,23 @@ impl Slices {
     fn of(&self, center: f32x4) -> [i32; 4] {
         let place = (center - self.origin) * self.scale;
         place.fast_max(f32x4::ZERO).fast_min(self.last).fast_trunc_int().to_array()
+    }
+}
+
+/// See [`Bins::new`].
+struct Fill<'a> {
+    slices: &'a Slices,
+    items: &'a [Item],
+}
+
+impl Work for Fill<'_> {
+    type Output = Bins;
+    #[inline(always)]
+    fn run(self) -> Bins {
+        let mut pair = [Bins::EMPTY; 2];
+        Bins::fill(&mut pair, self.slices, self.items);
+        let [bins, _] = pair;
+        bins
     }
 }
 
@@ -79,46 +100,63 @@ impl Bins {
 
     /// What `items` fall into.
     pub(super) fn new(slices: &Slices, items: &[Item]) -> Self {
-        let mut bins = Self::EMPTY;
-        bins.fill(slices, items);
-        bins
+        widest(Fill { slices, items })
     }
 
-    /// Forgets what has fallen into them before, and takes `items`.
+    /// Forgets what the first has taken before, and lets `items` fall into it; the other is for this work only.
     #[inline(always)]
-    pub(super) fn fill(&mut self, slices: &Slices, items: &[Item]) {
+    pub(super) fn fill([bins, other]: &mut [Self; 2], slices: &Slices, items: &[Item]) {
+        // PERF: neighbours often fall into the same slice, and each would wait for what the one before it has written
+        // there. So two halves take turns, and if they are long they have bins of their own (bench kernel, build).
+        let (first, second) = items.split_at(items.len() / 2);
+        bins.clear(slices);
+        if items.len() < APART {
+            for (a, b) in first.iter().zip(second) {
+                bins.add(slices, a);
+                bins.add(slices, b);
+            }
+        } else {
+            other.clear(slices);
+            for (a, b) in first.iter().zip(second) {
+                bins.add(slices, a);
+                other.add(slices, b);
+            }
+            bins.join(other);
+        }
+        second[first.len()..].iter().for_each(|item| bins.add(slices, item));
+    }
+
+    #[inline(always)]
+    fn clear(&mut self, slices: &Slices) {
         self.hulls[..slices.count].fill([Hull::EMPTY; 3]);
         self.counts[..slices.count].fill([0; 4]);
-        let mut add = |item: &Item| {
-            let places = slices.of(item.center());
-            for (axis, place) in places.into_iter().enumerate().take(3) {
-                let bin = place as usize % BINS;
-                let hull = &mut self.hulls[bin][axis];
-                *hull = hull.joined(item.0);
-                self.counts[bin][axis] += 1;
-            }
-        };
-        // PERF: neighbours often fall into the same slice, and each would wait for what the one before it has written
-        // there. So the two halves take turns (bench kernel, build).
-        let (first, second) = items.split_at(items.len() / 2);
-        for (a, b) in first.iter().zip(second) {
-            add(a);
-            add(b);
+    }
+
+    #[inline(always)]
+    fn add(&mut self, slices: &Slices, item: &Item) {
+        let places = slices.of(item.center());
+        for (axis, place) in places.into_iter().enumerate().take(3) {
+            let bin = place as usize % BINS;
+            let hull = &mut self.hulls[bin][axis];
+            *hull = hull.joined(item.0);
+            self.counts[bin][axis] += 1;
         }
-        second[first.len()..].iter().for_each(add);
+    }
+
+    #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        for bin in 0..BINS {
+            join(&mut self.hulls[bin], &other.hulls[bin]);
+            for axis in 0..3 {
+                self.counts[bin][axis] += other.counts[bin][axis];
+            }
+        }
     }
 
     /// All together.
     pub(super) fn sum(parts: &[Self]) -> Self {
         let mut sum = parts[0].clone();
-        for part in &parts[1..] {
-            for bin in 0..BINS {
-                join(&mut sum.hulls[bin], &part.hulls[bin]);
-                for axis in 0..3 {
-                    sum.counts[bin][axis] += part.counts[bin][axis];
-                }
-            }
-        }
+        parts[1..].iter().for_each(|part| sum.join(part));
         sum
     }
 
@@ -129,6 +167,7 @@ impl Bins {
 
     /// The cheapest plane that has some of the `n` items on both sides; of equals the first. `None` if there is none, or
     /// if all sides are without area so that costs say nothing.
+    #[inline(always)]
     pub(super) fn best(&self, slices: &Slices, n: usize, unit: &AreaUnit) -> Option<Plane> {
         let overhead = f32x4::splat(OVERHEAD);
         let number = |bin: usize| f32x4::from_i32x4(self.counts[bin].into());
@@ -156,6 +195,7 @@ impl Bins {
             .then(|| self.plane(slices, axis, place[axis], least[axis]))
     }
 
+    #[inline(always)]
     fn plane(&self, slices: &Slices, axis: usize, bin: f32, cost: f32) -> Plane {
         let (left, right) = self.hulls[..slices.count].split_at(bin as usize);
         let around = |side: &[[Hull; 3]]| side.iter().fold(Hull::EMPTY, |h, bin| h.joined(bin[axis]));

@@ -102,14 +102,34 @@ pub(crate) fn grow(prims: &impl Primitives, width: usize, preset: Preset) -> Wid
     if prims.len() == 0 {
         return WideTree::default();
     }
-    let plan = Plan::of(preset);
     let (items, unit) = top_down::references(prims);
-    let whole = plan.whole(prims, items, unit, width);
-    match plan.cuts.then(|| plan.in_pieces(prims, unit, width)).flatten() {
-        // Cuts do not pay for themselves everywhere, least of all where reinsertion has done the same.
-        Some(pieces) if pieces.area(&unit) < whole.area(&unit) => pieces,
-        _ => whole,
+    let tree = Plan::of(preset).whole(prims, items, unit, width);
+    if preset == Preset::High { improved(prims, tree, &unit, width) } else { tree }
+}
+
+/// The cheapest of a tree and others that take more work.
+fn improved(prims: &impl Primitives, tree: WideTree, unit: &AreaUnit, width: usize) -> WideTree {
+    let mut best = (tree.area(unit), tree);
+    let mut offer = |tree: WideTree| {
+        let area = tree.area(unit);
+        let is_better = area < best.0;
+        if is_better {
+            best = (area, tree);
+        }
+        is_better
+    };
+    // Reinsertion lowers the cost of the binary tree, not that of packets it collapses to: what leaves are best depends on
+    // the scene.
+    let mut plan = Plan { leaf_max: PACKET / 2, effort: Effort::MOST };
+    for other in [plan, Plan { leaf_max: 1, ..plan }] {
+        let (items, _) = top_down::references(prims);
+        if offer(other.whole(prims, items, *unit, width)) {
+            plan = other;
+        }
     }
+    // Cuts do not pay for themselves everywhere, least of all where reinsertion has done the same.
+    plan.in_pieces(prims, *unit, width).map(offer);
+    best.1
 }
 
 impl WideTree {
@@ -119,24 +139,21 @@ impl WideTree {
     }
 }
 
-/// What a preset does.
+/// A way to a tree.
+#[derive(Clone, Copy)]
 struct Plan {
     /// Most primitives in a leaf of the binary tree.
     leaf_max: usize,
-    effort: Option<Effort>,
-    /// Whether to try with primitives in pieces too.
-    cuts: bool,
+    effort: Effort,
 }
 
 impl Plan {
+    /// What comes first.
     fn of(preset: Preset) -> Self {
         match preset {
-            Preset::Fast => Self { leaf_max: PACKET, effort: None, cuts: false },
-            Preset::Balanced => {
-                Self { leaf_max: PACKET / 2, effort: Some(Effort { rounds: 3, fraction: 0.1 }), cuts: false }
-            }
-            Preset::High => {
-                Self { leaf_max: 1, effort: Some(Effort { rounds: 8, fraction: 0.5 }), cuts: true }
+            Preset::Fast => Self { leaf_max: PACKET, effort: Effort::NONE },
+            Preset::Balanced | Preset::High => {
+                Self { leaf_max: PACKET / 2, effort: Effort { rounds: 3, fraction: 0.1 } }
             }
         }
     }
@@ -162,8 +179,8 @@ impl Plan {
 
     /// Reinserts and collapses.
     fn wide(&self, prims: &impl Primitives, mut tree: Binary, width: usize) -> Option<WideTree> {
-        if let Some(effort) = self.effort {
-            reinsert::reinsert(&mut tree, effort);
+        if self.effort.rounds > 0 {
+            reinsert::reinsert(&mut tree, self.effort);
         }
         collapse::collapse(&tree, prims, width)
     }

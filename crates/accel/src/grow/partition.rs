@@ -2,6 +2,7 @@
 use rayon::prelude::*;
 
 use super::{binary::Item, bins::Plane, hull::Hull, shared::CHUNK};
+use crate::simd::{Work, widest};
 
 /// The box around the items of a range and one around their centres (doubled).
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +25,7 @@ impl Around {
 
     /// The two sides of a plane, the boxes around centres from what is known without looking: they lie between the
     /// plane and the old box, and within the box around the items.
+    #[inline(always)]
     pub(super) fn sides(&self, plane: &Plane) -> [Self; 2] {
         let side = |hull: Hull| {
             let lo = self.centers.lo.fast_max(hull.lo + hull.lo);
@@ -40,15 +42,18 @@ impl Around {
 }
 
 /// Moves the items left of `plane` to the front; returns how many.
-#[expect(clippy::manual_swap, reason = "the item stays in registers for the test")]
+#[inline(always)]
+#[expect(clippy::manual_swap, reason = "swapped items pass through memory")]
 pub(super) fn by_plane(items: &mut [Item], plane: &Plane) -> usize {
     let mut left = 0;
     // No branch to predict: an item on the right changes places with another on the right.
     for i in 0..items.len() {
+        // PERF: asked where it lies: for one of its lanes it would pass through memory (bench kernel, build).
+        let is_left = plane.is_left(&items[i]);
         let item = items[i];
         items[i] = items[left];
         items[left] = item;
-        left += usize::from(plane.is_left(&item));
+        left += usize::from(is_left);
     }
     left
 }
@@ -65,15 +70,28 @@ pub(super) fn to_sides(items: &[Item], to: &mut [Item], plane: &Plane, counts: V
         (left, right) = (rest_left, rest_right);
         places.push((chunk, [to_left, to_right]));
     }
-    places.into_par_iter().for_each(|(chunk, to)| {
+    places.into_par_iter().for_each(|(items, to)| widest(Deal { items, to, plane }));
+    middle
+}
+
+/// Copies items, in their order, to the two sides of a plane.
+struct Deal<'a> {
+    items: &'a [Item],
+    to: [&'a mut [Item]; 2],
+    plane: &'a Plane,
+}
+
+impl Work for Deal<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
         let mut next = [0; 2];
-        for item in chunk {
-            let side = usize::from(!plane.is_left(item));
-            to[side][next[side]] = *item;
+        for item in self.items {
+            let side = usize::from(!self.plane.is_left(item));
+            self.to[side][next[side]] = *item;
             next[side] += 1;
         }
-    });
-    middle
+    }
 }
 
 /// Half the items by rank of their centres along the widest axis, equals by primitive; as they lie where centres say

@@ -10,6 +10,7 @@ use super::{
     binary::{Binary, Item, Node},
     hull::{AreaUnit, Hull},
 };
+use crate::simd::{Work, widest};
 
 /// The root's parent.
 const NONE: u32 = u32::MAX;
@@ -23,6 +24,11 @@ pub(super) struct Effort {
     pub(super) rounds: usize,
     /// What fraction of all nodes is tried in the first round; in round i the i-th part of that.
     pub(super) fraction: f32,
+}
+
+impl Effort {
+    pub(super) const NONE: Self = Self { rounds: 0, fraction: 0.0 };
+    pub(super) const MOST: Self = Self { rounds: 8, fraction: 0.5 };
 }
 
 /// The part of the first round's nodes that are tried before it, to see whether the tree is any good already.
@@ -63,16 +69,35 @@ pub(super) fn reinsert(tree: &mut Binary, effort: Effort) {
     }
 }
 
+/// Looks for better places of some nodes.
+struct Search<'a> {
+    tree: &'a Tree<'a>,
+    names: &'a [u32],
+}
+
+impl Work for Search<'_> {
+    type Output = Vec<Move>;
+    #[inline(always)]
+    fn run(self) -> Vec<Move> {
+        let mut stack = Vec::new();
+        self.names.iter().filter_map(|&name| self.tree.search(name, &mut stack)).collect()
+    }
+}
+
 impl Tree<'_> {
+    #[inline(always)]
     fn hull(&self, name: u32) -> Hull {
         self.nodes[name as usize].0
     }
+    #[inline(always)]
     fn area(&self, name: u32) -> f32 {
         self.unit.area(&self.hull(name))
     }
+    #[inline(always)]
     fn parent(&self, name: u32) -> u32 {
         self.parents[name as usize]
     }
+    #[inline(always)]
     fn sibling(&self, name: u32) -> u32 {
         match self.nodes[self.parent(name) as usize].node() {
             Node::Inner([left, right]) if left == name => right,
@@ -85,10 +110,7 @@ impl Tree<'_> {
     fn improve(&mut self, count: usize) -> bool {
         let names = self.largest(count);
         let area: f64 = names.iter().map(|&name| f64::from(self.area(name))).sum();
-        let search = |names: &[u32]| {
-            let mut stack = Vec::new();
-            names.iter().filter_map(|&name| self.search(name, &mut stack)).collect::<Vec<_>>()
-        };
+        let search = |names| widest(Search { tree: self, names });
         let mut moves: Vec<Move> = names.par_chunks(CHUNK).flat_map_iter(search).collect();
         moves.par_sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.node.cmp(&b.node)));
         let gain: f64 = moves.iter().map(|m| self.try_move(m)).sum();
@@ -115,6 +137,7 @@ impl Tree<'_> {
 
     /// The best new sibling for a node. Branch and bound: subtrees beside the path to the root are searched with what
     /// the removal has gained up to there, less the growth of the boxes on the way down.
+    #[inline(always)]
     fn search(&self, node: u32, stack: &mut Vec<(f32, u32)>) -> Option<Move> {
         let hull = self.hull(node);
         let area = self.unit.area(&hull);

@@ -8,9 +8,9 @@ use super::{
     bins::{Bins, Plane, Slices},
     hull::Hull,
     partition::{self, Around},
-    top_down::{Grower, Plot},
+    top_down::{Grower, Plot, Subtree},
 };
-use crate::simd::roomy;
+use crate::simd::{roomy, widest};
 
 /// Ranges longer than this are split by all threads together.
 const SHARED: usize = 1 << 14;
@@ -118,12 +118,7 @@ pub(super) fn run<P: Primitives>(
             );
             Top::Split { hull, middle, below: Box::new([left, right]) }
         }
-        Top::Task(plot) => {
-            let mut nodes = Vec::with_capacity(2 * items.len().div_ceil(grower.leaf_max));
-            let mut bins = Bins::EMPTY;
-            grower.grow(Plot { first, ..plot }, items, &mut nodes, &mut bins);
-            Top::Task(nodes)
-        }
+        Top::Task(plot) => Top::Task(widest(Subtree { grower, plot: Plot { first, ..plot }, items })),
     }
 }
 

@@ -1,6 +1,8 @@
 //! From references to a binary tree, top down: one thread.
 //!
 //! Where no plane splits (equal centres, no areas), or the tree would get deeper than allowed, items are halved by rank.
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::{
@@ -11,7 +13,7 @@ use super::{
     partition::{self, Around},
     shared::{self, CHUNK, Top},
 };
-use crate::simd::roomy;
+use crate::simd::{Work, roomy};
 
 /// What is known of a range of items.
 #[derive(Clone, Copy, Debug)]
@@ -84,29 +86,65 @@ impl Plot {
     }
 }
 
-impl<P: Primitives> Grower<'_, P> {
-    /// Appends the nodes over a range. They point to their children by the distance. What `bins` hold does not matter.
-    pub(super) fn grow(&self, plot: Plot, items: &mut [Item], nodes: &mut Vec<Item>, bins: &mut Bins) {
-        let (hull, n) = (plot.around.hull, items.len());
-        let packs = |item: &Item| self.prims.packs(item.prim());
-        if n == 1 || n <= self.leaf_max && items.iter().all(packs) {
-            nodes.push(Item::leaf(&hull, plot.first, n));
-            return;
+/// A range that is to be grown.
+struct Pending {
+    plot: Plot,
+    items: Range<usize>,
+    /// The node whose right child it is.
+    parent: Option<usize>,
+}
+
+/// The subtree over some items, by one thread.
+pub(super) struct Subtree<'a, 'b, P> {
+    pub(super) grower: &'a Grower<'b, P>,
+    pub(super) plot: Plot,
+    pub(super) items: &'a mut [Item],
+}
+
+impl<P: Primitives> Work for Subtree<'_, '_, P> {
+    /// The nodes, which point to their children by the distance.
+    type Output = Vec<Item>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<Item> {
+        let Self { grower, plot, items } = self;
+        let mut nodes: Vec<Item> = Vec::with_capacity(2 * items.len().div_ceil(grower.leaf_max));
+        let mut bins = [Bins::EMPTY; 2];
+        let mut pending = vec![Pending { plot, items: 0..items.len(), parent: None }];
+        while let Some(Pending { mut plot, items: mut range, parent }) = pending.pop() {
+            if let Some(parent) = parent {
+                nodes[parent] = Item::inner(&nodes[parent].0, [1, (nodes.len() - parent) as u32]);
+            }
+            // Down to the left, right siblings are left for later.
+            loop {
+                let items = &mut items[range.clone()];
+                if grower.is_leaf(items) {
+                    nodes.push(Item::leaf(&plot.around.hull, plot.first, items.len()));
+                    break;
+                }
+                let (middle, around) =
+                    grower.divide(&plot, items, &mut bins).unwrap_or_else(|| plot.halve(items));
+                let [left, right] = plot.split(middle, around);
+                let middle = range.start + middle;
+                pending.push(Pending { plot: right, items: middle..range.end, parent: Some(nodes.len()) });
+                nodes.push(Item(plot.around.hull));
+                (plot, range) = (left, range.start..middle);
+            }
         }
-        let node = nodes.len();
-        nodes.push(Item::ZERO);
-        let (middle, around) = self.divide(&plot, items, bins).unwrap_or_else(|| plot.halve(items));
-        let [left, right] = plot.split(middle, around);
-        let (items_left, items_right) = items.split_at_mut(middle);
-        self.grow(left, items_left, nodes, bins);
-        let right_place = (nodes.len() - node) as u32;
-        self.grow(right, items_right, nodes, bins);
-        nodes[node] = Item::inner(&hull, [1, right_place]);
+        nodes
+    }
+}
+
+impl<P: Primitives> Grower<'_, P> {
+    #[inline(always)]
+    fn is_leaf(&self, items: &[Item]) -> bool {
+        let packs = |item: &Item| self.prims.packs(item.prim());
+        items.len() == 1 || items.len() <= self.leaf_max && items.iter().all(packs)
     }
 
     /// Splits two or more items by the surface area heuristic, if that can.
-    #[inline(never)]
-    fn divide(&self, plot: &Plot, items: &mut [Item], bins: &mut Bins) -> Option<(usize, [Around; 2])> {
+    #[inline(always)]
+    fn divide(&self, plot: &Plot, items: &mut [Item], bins: &mut [Bins; 2]) -> Option<(usize, [Around; 2])> {
         if !plot.has_levels_for(items.len()) {
             return None;
         }
@@ -120,9 +158,9 @@ impl<P: Primitives> Grower<'_, P> {
     }
 
     #[inline(always)]
-    fn plane(&self, around: &Around, items: &[Item], bins: &mut Bins) -> Option<Plane> {
+    fn plane(&self, around: &Around, items: &[Item], bins: &mut [Bins; 2]) -> Option<Plane> {
         let slices = Slices::new(&around.centers, items.len());
-        bins.fill(&slices, items);
-        bins.best(&slices, items.len(), &self.unit)
+        Bins::fill(bins, &slices, items);
+        bins[0].best(&slices, items.len(), &self.unit)
     }
 }
