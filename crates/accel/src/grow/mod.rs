@@ -122,11 +122,11 @@ fn improved(prims: &impl Primitives, tree: WideTree, unit: &AreaUnit, width: usi
     };
     // Reinsertion lowers the cost of the binary tree, not that of packets it collapses to: what leaves are best depends on
     // the scene.
-    let mut plan = Plan { leaf_max: PACKET / 2, effort: Effort::MOST };
-    for other in [plan, Plan { leaf_max: 1, ..plan }] {
+    let mut plan = Plan::of(Preset::High);
+    for other in [Plan { leaf_max: PACKET / 2, ..plan }, Plan::of(Preset::Balanced)] {
         let (items, _) = top_down::references(prims);
         if offer(other.whole(prims, items, *unit, width)) {
-            plan = other;
+            plan.leaf_max = other.leaf_max;
         }
     }
     // Cuts do not pay for themselves everywhere, least of all where reinsertion has done the same.
@@ -154,9 +154,9 @@ impl Plan {
     fn of(preset: Preset) -> Self {
         match preset {
             Preset::Fast => Self { leaf_max: PACKET, effort: Effort::NONE },
-            Preset::Balanced | Preset::High => {
-                Self { leaf_max: PACKET / 2, effort: Effort { rounds: 3, fraction: 0.1 } }
-            }
+            Preset::Balanced => Self { leaf_max: PACKET / 2, effort: Effort { rounds: 3, fraction: 0.1 } },
+            // What takes most memory, while nothing else is there.
+            Preset::High => Self { leaf_max: 1, effort: Effort::MOST },
         }
     }
 
