@@ -1,7 +1,7 @@
 //! Why a scene cannot be built.
 use thiserror::Error;
 
-use crate::{curve::CurveError, point::PointError};
+use crate::{curve::CurveError, layout::Link, point::PointError};
 
 /// A mistake in what was handed to the builder, or to an `Accel` that is changed; it is left as it was before the call.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -133,7 +133,7 @@ pub enum BuildError {
         gigabytes: usize,
     },
     /// Ids would not fit.
-    #[error("{count} {what} are more than the {limit} that ids can count; split the scene", limit = u32::MAX / 2)]
+    #[error("{count} {what} are more than the {limit} that ids can count; split the scene", limit = Link::LIMIT)]
     TooMany {
         /// How many there are.
         count: usize,
@@ -145,14 +145,14 @@ pub enum BuildError {
 impl BuildError {
     /// `count` as an id.
     pub(crate) fn check_count(count: usize, what: &'static str) -> Result<u32, Self> {
-        u32::try_from(count).ok().filter(|n| *n <= u32::MAX / 2).ok_or(Self::TooMany { count, what })
+        u32::try_from(count).ok().filter(|n| *n <= Link::LIMIT).ok_or(Self::TooMany { count, what })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{layout::Link, simd::ROW};
+    use crate::simd::ROW;
 
     #[test]
     fn a_tree_has_room_for_as_many_triangles_as_its_error_says() {
@@ -163,12 +163,12 @@ mod tests {
 
     #[test]
     fn more_primitives_than_ids_are_refused() {
-        let most = (u32::MAX / 2) as usize;
-        assert_eq!(BuildError::check_count(most, "triangles"), Ok(u32::MAX / 2));
+        let most = Link::LIMIT as usize;
+        assert_eq!(BuildError::check_count(most, "triangles"), Ok(Link::LIMIT));
         let error = BuildError::check_count(most + 1, "triangles").expect_err("one too many");
         assert_eq!(
             error.to_string(),
-            "2147483648 triangles are more than the 2147483647 that ids can count; split the scene"
+            "268435457 triangles are more than the 268435456 that ids can count; split the scene"
         );
     }
 }

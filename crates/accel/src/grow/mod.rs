@@ -63,7 +63,7 @@ pub(crate) const DEPTH_MAX: u32 = 64;
 
 /// What a tree is grown over.
 pub(crate) trait Primitives: Sync {
-    /// How many; less than 2^31.
+    /// How many; at most `Link::LIMIT`.
     fn len(&self) -> usize;
     /// A box around one of them: finite and not empty, though it may be flat or a point.
     fn bounds(&self, prim: u32) -> Bounds3;
