@@ -13,14 +13,15 @@
 //!
 //! # The contract of a hit
 //! - A hit has a finite `t` with `t_min <= t <= t_max`; of two hits with equal `t` the smaller `(instance, prim)` wins.
-//! - A triangle hit lies further from the origin than its own rounding error bound, so a ray that starts on a triangle
-//!   does not meet it again at `t` = noise. There are no epsilons.
+//! - A hit on a triangle that reaches back beyond the ray's origin lies further from it than the bound on its own rounding
+//!   error, so a ray that starts on a triangle, off it by the error of its origin
+//!   ([`offset_ray_origin`](math::error::offset_ray_origin)), does not meet it again at `t` = noise. There are no epsilons.
 //! - `t` is never less than where the ray enters the primitive's box (and its instance's): if rounding says otherwise,
 //!   `t` is raised to it. Boxes of nodes are tested with more slack than that entry is computed with, so that none around
 //!   the primitive is entered later than its hit, and culling cannot change a result. Of triangles that [`Preset::High`]
 //!   has cut this is tested, not proven: a part's box may begin beyond the entry of the whole.
-//! - A ray with a zero or non-finite direction (or one shorter than 3e-39), a non-finite origin or `t_min > t_max`
-//!   misses everything.
+//! - A ray with a zero or non-finite direction, a non-finite origin or `t_min > t_max` misses everything; also one whose
+//!   direction's components add up, in magnitude, to less than 9e-39, or to more than `f32::MAX` with those of its origin.
 #![deny(unsafe_code)]
 
 mod accel;

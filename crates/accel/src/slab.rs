@@ -11,7 +11,7 @@
 use durer_core::math::{Bounds3, Ray};
 use wide::f32x4;
 
-use crate::triangle::T_MAX;
+use crate::triangle::{COORDINATE_MAX, T_MAX};
 
 /// Half the distance between 1 and the next number.
 const U: f32 = f32::EPSILON / 2.0;
@@ -161,7 +161,7 @@ impl Measured {
     /// Whether edge functions and distances may overflow.
     #[inline(always)]
     pub(crate) fn is_far(&self, region: f32) -> bool {
-        greater(self.away, region) > T_MAX * self.length
+        greater(self.away, region) > lesser(T_MAX * self.length, COORDINATE_MAX)
     }
 }
 

@@ -30,7 +30,7 @@ impl<'r> Space<'r> {
     pub(crate) fn mend<const ROBUST: bool>(&mut self, region: f32) {
         let measured = Measured::of(self.ray);
         self.slab = Slab::odd::<ROBUST>(&measured, region);
-        if measured.is_far(region) {
+        if ROBUST && measured.is_far(region) {
             self.shear.distrust();
         }
     }

@@ -15,8 +15,8 @@ pub enum Engine {
 /// What rounding may do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
-    /// Watertight: no ray slips between triangles that share an edge, none meets the surface it starts on again by
-    /// rounding, no box hides a hit.
+    /// Watertight: no ray slips between triangles that share an edge, none that starts off a surface by the error of
+    /// its origin meets that again by rounding, no box hides a hit.
     #[default]
     Robust,
     /// A little faster, without these promises.

@@ -35,6 +35,8 @@ pub(crate) trait Corners<V: Lanes>: Copy {
     fn coordinate(self, token: V::Token, shear: &Shear, vertex: usize, axis: usize) -> V;
     /// One triangle as it is.
     fn triangle(self, lane: usize) -> [Point3; 3];
+    /// Bit `i`: lane `i` holds a triangle.
+    fn lanes(self) -> u32;
     /// The same group, without what the compiler knows of it.
     fn anew(self) -> Self;
 }
@@ -71,6 +73,10 @@ pub(crate) fn test<V: Lanes, const ROBUST: bool>(
     group: impl Corners<V>,
     found: &mut Found<V::Array>,
 ) -> u32 {
+    if ROBUST && shear.huge == 0.0 {
+        // Sums may be no numbers: nothing they say counts.
+        return settle(shear, reach, (0, group.lanes()), |lane| group.triangle(lane), found);
+    }
     let z0 = group.coordinate(token, shear, 0, 2);
     let z1 = group.coordinate(token, shear, 1, 2);
     let z2 = group.coordinate(token, shear, 2, 2);
@@ -104,24 +110,27 @@ fn meet<V: Lanes, const ROBUST: bool>(
     let sz = V::splat(token, shear.z);
     let z = [z[0].mul(sz), z[1].mul(sz), z[2].mul(sz)];
     let reciprocal = V::splat(token, 1.0).div(e[0].add(e[1]).add(e[2]));
-    let mut t = e[0].mul(z[0]).add(e[1].mul(z[1])).add(e[2].mul(z[2])).mul(reciprocal);
     let (t_min, t_max) = (V::splat(token, reach.t_min), V::splat(token, reach.t_max));
     let (u, v) = (e[1].mul(reciprocal), e[2].mul(reciprocal));
     u.store(&mut found.u);
     v.store(&mut found.v);
-    // An edge exactly on the ray, or numbers so small or large that products may lose it all, are for f64.
-    let spread = least.mul(*most);
-    let ordinary = V::splat(token, TINY).le(spread).and(spread.le(V::splat(token, shear.huge)));
-    let within = inside.and(ordinary).and(t_min.le(t));
-    let met = t;
+    let floor = V::splat(token, reach.floor);
     if !ROBUST {
-        t = t.max(V::splat(token, reach.floor));
+        let zero = V::splat(token, 0.0);
+        let strictly = zero.lt(*least).or(most.lt(zero));
+        let met = e[0].mul(reciprocal).mul(z[0]).add(u.mul(z[1])).add(v.mul(z[2]));
+        let t = met.max(floor);
         t.store(&mut found.t);
-        return within.and(t.le(t_max)).bits();
+        return strictly.and(t_min.le(met)).and(t.le(t_max)).bits();
     }
-    t = t.max(entry(token, shear, group)).max(V::splat(token, reach.floor));
+    // PERF: sums first, while the division is under way. Their products must not overflow (bench kernel).
+    let met = e[0].mul(z[0]).add(e[1].mul(z[1])).add(e[2].mul(z[2])).mul(reciprocal);
+    // An edge exactly on the ray, or numbers so small or large that products may lose it all, are for f64.
+    let spread = V::splat(token, TINY).le(least.mul(*most));
+    let ordinary = spread.and(least.abs().max(most.abs()).le(V::splat(token, shear.huge)));
+    let t = met.max(entry(token, shear, group)).max(floor);
     t.store(&mut found.t);
-    let hits = within.and(t.le(t_max));
+    let hits = inside.and(ordinary).and(t_min.le(met)).and(t.le(t_max));
     // In front with all its vertices: so is the hit, whatever the rounding.
     let front = V::splat(token, greater(reach.t_min, 0.0)).lt(z[0].min(z[1]).min(z[2]));
     let (bits, ahead) = (hits.bits(), front.bits());
@@ -162,8 +171,8 @@ fn keep<V: Lanes>(
     bound.lt(t.abs()).and(V::splat(token, t_min).le(exit)).bits()
 }
 
-/// Roundings of a term of the weighted mean: of its depth 2, its product 1, the sums 4, the quotient 1.
-pub(super) const SUM_ROUNDINGS: u32 = 8;
+/// Roundings of a term of the weighted mean: of its depth 3, its product 1, the sums 4, the quotient 2.
+pub(super) const SUM_ROUNDINGS: u32 = 10;
 /// Roundings of a vertex on its way across the ray: its difference from the origin, shear, product, difference.
 pub(super) const CORNER_ROUNDINGS: u32 = 5;
 /// Roundings of an edge function: products and their difference; one more for what is of second order.
@@ -272,6 +281,9 @@ impl<V: Lanes<Array = [f32; PACKET]>, R: PacketRecord> Corners<V> for Packed<'_,
     }
     fn triangle(self, lane: usize) -> [Point3; 3] {
         self.packet.triangle(lane, self.moment)
+    }
+    fn lanes(self) -> u32 {
+        (1 << self.packet.len()) - 1
     }
     #[inline(always)]
     fn anew(self) -> Self {

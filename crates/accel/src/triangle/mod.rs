@@ -25,10 +25,12 @@ pub(crate) use lanes::{Found, Reach, packet};
 /// Directions smaller than this times the largest component move a ray along no axis: boxes cannot exclude it there.
 const HARDLY: f32 = 1.0 / (1 << 20) as f32;
 
-/// With edge functions below its root and `t` below [`T_MAX`] products stay below the largest number.
-const HUGE: f32 = 1e36;
+/// With edge functions up to this and `t` up to some [`T_MAX`] products stay below the largest number.
+const HUGE: f32 = 1e18;
 /// Largest distance of coordinates in multiples of a ray's direction that f32 is trusted with.
 pub(crate) const T_MAX: f32 = 1e19;
+/// Largest coordinate whose square f32 is trusted with, four of them together.
+pub(crate) const COORDINATE_MAX: f32 = 2e18;
 
 /// The two other axes and the longest, by the longest: a turn that keeps right-handedness.
 const AXES: [[Axis; 3]; 3] =
@@ -49,7 +51,7 @@ pub struct Shear {
     reciprocal: [f32; 2],
     /// 0, or infinity for an axis along which the ray hardly moves.
     slack: [f32; 2],
-    /// Largest product of two edge functions that f32 is trusted with.
+    /// Largest edge function that f32 is trusted with; 0 if with none.
     huge: f32,
 }
 
@@ -116,7 +118,7 @@ pub struct TriangleHit {
 pub fn intersect(shear: &Shear, triangle: &[Point3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
     let reach = Reach { t_min, t_max, floor: f32::NEG_INFINITY };
     let relative = triangle.each_ref().map(|p| shear.relative(p));
-    let is_far = |v: &[f32; 3]| v.iter().any(|x| (x * shear.z).abs() > T_MAX);
+    let is_far = |v: &[f32; 3]| v.iter().any(|x| (x * shear.z).abs().max(x.abs()) > COORDINATE_MAX);
     if relative.iter().any(is_far) {
         return exact(shear, triangle, &reach);
     }
@@ -139,6 +141,9 @@ impl Corners<f32> for One<'_> {
     }
     fn triangle(self, _: usize) -> [Point3; 3] {
         *self.triangle
+    }
+    fn lanes(self) -> u32 {
+        1
     }
     fn anew(self) -> Self {
         self

@@ -14,5 +14,6 @@ mod near_misses;
 mod points;
 mod properties;
 mod shapes;
+mod sizes;
 mod triangle;
 mod watertight;
