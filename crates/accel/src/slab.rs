@@ -25,6 +25,8 @@ const FLOOR: f32 = 1e-18;
 const SHORTEST: f32 = 9e-39;
 /// Directions from this length on need no care.
 const SHORT: f32 = 1e-18;
+/// Boxes farther behind the origin than this are not told apart.
+const BACK_MAX: f32 = 1e30;
 /// Products of reciprocals and coordinates stay below the largest number.
 const PRODUCT_MAX: f32 = 1e37;
 
@@ -92,14 +94,15 @@ impl Slab {
             (slab.far_r, slab.far_c) = (f32x4::ZERO, f32x4::splat(f32::MAX));
         }
         if ray.t_min < 0.0 {
+            let back = lesser(-ray.t_min, BACK_MAX);
             // What is relative errs the other way behind the origin; no error there is larger than this.
             let of = |size: f32| match size > 2.0 * slack {
-                true => 4.0 * slack / size * -ray.t_min,
+                true => 4.0 * slack / size * back,
                 false => f32::MAX / 4.0,
             };
             let [x, y, z] = [0, 1, 2].map(|axis| of(ray.d.as_array()[axis].abs()));
             slab.behind = f32x4::new([x, y, z, z]);
-            slab.shift = -ray.t_min;
+            slab.shift = back;
             slab.near_c += slab.shift - slab.behind * 2.0;
             slab.far_c += slab.shift + slab.behind * 2.0;
         }

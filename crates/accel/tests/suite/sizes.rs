@@ -58,3 +58,17 @@ fn short_directions_and_far_vertices_hide_nothing() {
         assert!(is_near(found, 1.0), "{corners:?} {found:?}");
     }
 }
+
+#[test]
+fn a_whole_line_meets_what_lies_behind_its_origin() {
+    let unit = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+    for isa in Isa::available() {
+        let accel = accel(unit, Precision::Robust, isa);
+        let ray = Ray::new(Point3::new(0.0, 0.0, 3.0), Vector3::new(0.0, 0.0, 1.0));
+        for t_min in [-4.0, -1e20, f32::MIN, f32::NEG_INFINITY] {
+            let hit = accel.closest(&Ray { t_min, ..ray });
+            assert_eq!(hit.map(|hit| hit.t), Some(-3.0), "{isa:?} {t_min}");
+        }
+        assert!(!accel.any(&Ray { t_min: -2.0, ..ray }));
+    }
+}
