@@ -20,8 +20,8 @@ pub(crate) struct Tree {
     pub(crate) unbounded: Vec<Link>,
     /// All leaves, for brute force only.
     pub(crate) leaves: Vec<Link>,
-    /// Rows and lanes of triangles that lie in several leaves, each in a box around a part only; each once.
-    pub(crate) cut: Vec<(u32, u32)>,
+    /// Some triangles lie in several leaves, each in a box around a part only.
+    pub(crate) is_cut: bool,
     /// Box around what has a finite one.
     pub(crate) bounds: Bounds3,
     /// Longest way from the root to a leaf, in edges.
@@ -40,7 +40,7 @@ impl Tree {
             node_rows: 1,
             unbounded: Vec::new(),
             leaves: Vec::new(),
-            cut: Vec::new(),
+            is_cut: false,
             bounds: Bounds3::EMPTY,
             depth: 0,
             base: 0,
@@ -55,7 +55,7 @@ impl Tree {
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
         let links = size_of_val(self.unbounded.as_slice()) + size_of_val(self.leaves.as_slice());
-        self.pages.bytes() + links + size_of_val(self.cut.as_slice())
+        self.pages.bytes() + links
     }
 
     /// The name of the node at `row`, unique in the `Accel`.

@@ -32,8 +32,7 @@ impl Accel {
     /// grown by more than rays can afford (a third, say), build anew.
     ///
     /// Takes time proportional to the geometry, and to the scene's own tree, which holds what is used once and stands
-    /// still: for a million triangles 0.12 s on two cores, where building takes 1 s (debug profile, optimized). Instances of
-    /// other geometries cost a look at their nodes.
+    /// still. Instances of other geometries cost a look at their nodes.
     /// Of long curves, which trees hold in parts, each part gets the box of the whole: rays take longer.
     /// Trees over moving instances are built anew if some of this geometry move, and so are the geometry's or the
     /// scene's if boxes became infinite or finite.

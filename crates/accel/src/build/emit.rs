@@ -46,9 +46,9 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
     let written = plan.write(Subtree { name: 0, nodes: records, packets });
     let bounds = written.boxes[0].union(written.boxes[1]);
     let root = Some(Link::new(Target::Node(0)));
-    let cut = plan.cut();
+    let is_cut = wide.order.len() != subject.len();
     let depth = written.levels;
-    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, cut, bounds, depth, ..Tree::empty() })
+    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, is_cut, bounds, depth, ..Tree::empty() })
 }
 
 /// How many packets lie in front of those below each node, then how many there are.
@@ -198,27 +198,6 @@ impl Plan<'_> {
             }
         }
         slackened(&if moves { all } else { [child.bounds; 2] }, size, moves)
-    }
-
-    /// Rows and lanes of the triangles that lie in several leaves.
-    fn cut(&self) -> Vec<(u32, u32)> {
-        let (subject, wide) = (self.subject, self.wide);
-        if wide.order.len() == subject.len() {
-            return Vec::new();
-        }
-        let mut leaves = vec![0u32; subject.len()];
-        wide.order.iter().for_each(|&prim| leaves[prim as usize] += 1);
-        let packets = wide.children.iter().filter(|child| is_packet(subject, wide, child));
-        let mut found = Vec::new();
-        for (packet, child) in (0..).zip(packets) {
-            let prims = &wide.order[child.first as usize..(child.first + child.count) as usize];
-            for (lane, &prim) in (0..).zip(prims) {
-                if std::mem::take(&mut leaves[prim as usize]) > 1 {
-                    found.push((self.row(packet), lane));
-                }
-            }
-        }
-        found
     }
 }
 

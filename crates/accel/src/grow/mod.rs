@@ -43,14 +43,14 @@ use reinsert::Effort;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
     /// For geometry that changes from frame to frame: full leaves, nothing improved afterwards. 2.5 to 4 million triangles
-    /// a second, with 65 bytes for each while building.
+    /// a second; 84 bytes for each at the peak, the tree included.
     Fast,
     /// For most pictures: subtrees move to where they cost less. About 2 million triangles a second where there is
-    /// little to improve, fewer where large triangles lie among small ones; 65 bytes for each.
+    /// little to improve, fewer where large triangles lie among small ones; 97 bytes for each at the peak.
     #[default]
     Balanced,
     /// For pictures that take minutes: more of that, down to single triangles, and once more with triangles in pieces if
-    /// boxes overlap much; the cheaper tree is kept. Up to five times what `Balanced` takes; 100 to 220 bytes for each.
+    /// boxes overlap much; the cheaper tree is kept. 3 to 12 times what `Balanced` takes, and more memory.
     High,
 }
 

@@ -106,7 +106,7 @@ fn measure<N: NodeWriter, R: PacketRecord>(
 ) {
     // How near the boxes come that hold a primitive to its centre, by its number in the tree.
     let mut gaps = Vec::new();
-    if things.has_parts || !tree.cut.is_empty() {
+    if things.has_parts || tree.is_cut {
         gaps = vec![f64::INFINITY; things.count as usize];
         leaves::<N, R>(tree, &[0.0], things, |_, leaf| {
             if let Leaf::Primitive { id, gap, .. } = leaf {
@@ -238,7 +238,7 @@ mod tests {
             for places in [&places[..1], &places[1..3], &places[2..]] {
                 let [tree, brute] = [Engine::Bvh, Engine::BruteForce].map(|e| scene(size, places, e));
                 let mut forests = std::iter::once(&tree.scene).chain(&tree.geometries[0].forest);
-                assert!(forests.any(|forest| !forest.trees()[0].cut.is_empty()), "nothing was cut");
+                assert!(forests.any(|forest| forest.trees()[0].is_cut), "nothing was cut");
                 for i in 0..150 {
                     let mut ray = Ray::new(Point3::ZERO + random.vector(2.0 * size), random.vector(1.0));
                     ray.time = random.next();
