@@ -7,7 +7,7 @@ use durer_core::{
     math::{Normal3, Point3, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
-use durer_model::light::{LIGHTS, Light, LightSample, NOT_YET};
+use durer_model::light::{LIGHTS, Light, LightCx, LightSample, NOT_YET};
 use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType, find};
 use durer_testkit::{quadrature, random::Random};
 
@@ -32,7 +32,11 @@ fn point3(params: Params, name: &str, p: [f32; 3]) -> Params {
 }
 
 fn arriving(light: &dyn Light, p: Point3) -> Option<LightSample> {
-    light.sample(Basis::Rgb, p, &Sampler::new(SamplerKind::Sobol, 0, [0, 0], 0, 1))
+    light.sample(
+        &LightCx { basis: Basis::Rgb, time: 0.0 },
+        p,
+        &Sampler::new(SamplerKind::Sobol, 0, [0, 0], 0, 1),
+    )
 }
 
 fn close(got: f32, expected: f64, relative: f64) -> bool {

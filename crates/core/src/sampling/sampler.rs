@@ -46,6 +46,18 @@ impl Sampler {
         Self { key, ..self }
     }
 
+    /// The `i`-th of `n` samplers that share the work of this one: where several rays take the place of one, their
+    /// numbers together are those of `n` times as many samples, and as well spread over the whole pixel.
+    #[must_use]
+    pub fn split(self, i: u32, n: u32) -> Self {
+        debug_assert!(i < n, "part {i} of {n}");
+        Self {
+            index: self.index.wrapping_mul(n).wrapping_add(i),
+            count: self.count.saturating_mul(n),
+            ..self
+        }
+    }
+
     /// A number in `[0, 1)`.
     pub fn d1(&self, dim: Dim) -> f32 {
         self.d2(dim).x
@@ -126,6 +138,18 @@ mod tests {
             let mean = p.iter().fold(Point2::default(), |a, &b| a + b) * (1.0 / 1024.0);
             assert!((mean.x - 0.5).abs() < 0.03 && (mean.y - 0.5).abs() < 0.03, "{kind:?} {mean:?}");
             assert!(p.iter().all(|p| p.x >= 0.0 && p.x < 1.0 && p.y >= 0.0 && p.y < 1.0));
+        }
+    }
+
+    #[test]
+    fn the_parts_of_all_samples_are_one_net() {
+        let base = |i: u32| Sampler::new(SamplerKind::Sobol, 3, [5, 9], i, 16).fork(2);
+        for dim in [Dim::Light, Dim::Scatter] {
+            let mut cells = [[0; 8]; 8];
+            for p in (0..16).flat_map(|i| (0..4).map(move |j| base(i).split(j, 4).d2(dim))) {
+                cells[(p.y * 8.0) as usize][(p.x * 8.0) as usize] += 1;
+            }
+            assert_eq!(cells, [[1; 8]; 8], "{dim:?}");
         }
     }
 

@@ -2,11 +2,11 @@
 use durer_core::{
     math::{Point3, Transform, Vector3},
     sampling::Sampler,
-    spectrum::{Basis, Color},
+    spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightSample, axis, scaled};
+use super::{Light, LightCx, LightSample, axis, scaled};
 
 /// A distant light.
 #[derive(Debug)]
@@ -56,8 +56,8 @@ impl Light for Distant {
     fn place(&mut self, render_from_light: &Transform) {
         self.direction = render_from_light.vector(self.direction).normalize();
     }
-    fn sample(&self, basis: Basis, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        let weight = basis.emission(self.irradiance);
-        (!weight.is_black()).then_some(LightSample { wi: -self.direction, point: None, weight })
+    fn sample(&self, cx: &LightCx, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
+        let weight = cx.basis.emission(self.irradiance);
+        (!weight.is_black()).then_some(LightSample { wi: -self.direction, point: None, weight, pdf: None })
     }
 }

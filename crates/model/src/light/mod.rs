@@ -35,6 +35,17 @@ pub struct LightSample {
     /// Incident radiance divided by the density of sampling `wi`; for lights without extent the irradiance on a plane
     /// facing `wi`. Reflected radiance is `f cos weight`. W/m² (of a unit scene).
     pub weight: Spectrum,
+    /// Density of sampling `wi`, 1/sr; `None` for lights without extent, which no scattered ray can meet.
+    pub pdf: Option<f32>,
+}
+
+/// What lights need to know of a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct LightCx {
+    /// Meaning of the lanes.
+    pub basis: Basis,
+    /// The moment, in seconds.
+    pub time: f32,
 }
 
 /// A light, in render space once placed.
@@ -43,8 +54,8 @@ pub trait Light: Debug + Send + Sync {
     fn place(&mut self, render_from_light: &Transform);
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
-    fn sample(&self, basis: Basis, p: Point3, sampler: &Sampler) -> Option<LightSample> {
-        let _ = (basis, p, sampler);
+    fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let _ = (cx, p, sampler);
         None
     }
     /// Whether it surrounds the scene: it is not sampled, but has an ambient term or is seen by rays that left.

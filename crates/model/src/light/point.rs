@@ -4,11 +4,11 @@ use std::f32::consts::PI;
 use durer_core::{
     math::{Point3, Transform},
     sampling::Sampler,
-    spectrum::{Basis, Color},
+    spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{INTENSITY_SCALE, Light, LightSample, POSITION, POWER, falloff::Falloff, scaled};
+use super::{INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, falloff::Falloff, scaled};
 
 /// A point light.
 #[derive(Debug)]
@@ -43,9 +43,9 @@ impl Light for Point {
     fn place(&mut self, render_from_light: &Transform) {
         self.position = render_from_light.point(self.position);
     }
-    fn sample(&self, basis: Basis, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
+    fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (wi, irradiance) = self.falloff.towards(self.position, p)?;
-        let weight = basis.emission(self.intensity) * irradiance;
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight })
+        let weight = cx.basis.emission(self.intensity) * irradiance;
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight, pdf: None })
     }
 }

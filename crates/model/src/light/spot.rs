@@ -8,11 +8,11 @@ use std::f32::consts::{PI, TAU};
 use durer_core::{
     math::{Point3, Transform, Vector3, float::cos},
     sampling::Sampler,
-    spectrum::{Basis, Color},
+    spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{INTENSITY_SCALE, Light, LightSample, POSITION, POWER, axis, falloff::Falloff, scaled};
+use super::{INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, axis, falloff::Falloff, scaled};
 
 /// A spot light.
 #[derive(Debug)]
@@ -86,9 +86,9 @@ impl Light for Spot {
         self.position = render_from_light.point(self.position);
         self.axis = render_from_light.vector(self.axis).normalize();
     }
-    fn sample(&self, basis: Basis, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
+    fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (wi, irradiance) = self.falloff.towards(self.position, p)?;
-        let weight = basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(self.axis)));
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight })
+        let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(self.axis)));
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight, pdf: None })
     }
 }

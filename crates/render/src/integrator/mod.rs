@@ -5,6 +5,7 @@
 
 mod cast;
 mod shading;
+mod walk;
 mod whitted;
 
 use durer_scene::Entry;

@@ -9,7 +9,7 @@ use durer_core::{
 use durer_model::{
     Surface,
     bsdf::{BranchKind, Bsdf},
-    light::LightSample,
+    light::{LightCx, LightSample},
 };
 
 use crate::{Object, SampleCx};
@@ -30,6 +30,8 @@ pub(super) struct Shading {
     pub(super) wo_local: Vector3,
     /// What the surface sends out by itself.
     pub(super) emission: Spectrum,
+    /// The ray's moment, in seconds.
+    pub(super) time: f32,
 }
 
 impl Shading {
@@ -41,7 +43,7 @@ impl Shading {
         let emission = material.emission(&cx.shade(), &surface.texture_at());
         let bsdf = material.bsdf(&cx.shade(), &mut surface, wo);
         let frame = surface.frame();
-        Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, surface }
+        Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, time: ray.time, surface }
     }
 
     /// The ambient term, and the sky's blurred image in glossy lobes.
@@ -71,7 +73,8 @@ impl Shading {
         light: usize,
         sampler: &Sampler,
     ) -> Option<(Spectrum, LightSample)> {
-        let sample = cx.scene.lights[light].sample(cx.basis, self.surface.p, sampler)?;
+        let asked = LightCx { basis: cx.basis, time: self.time };
+        let sample = cx.scene.lights[light].sample(&asked, self.surface.p, sampler)?;
         // Light from the other side of the true surface does not come through, whatever the shading normal says.
         if self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo) {
             return None;

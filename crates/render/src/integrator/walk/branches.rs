@@ -1,0 +1,42 @@
+//! The rays that follow a hit: mirrored and refracted.
+use durer_core::spectrum::Spectrum;
+use durer_model::bsdf::BranchKind;
+
+use super::{super::shading::Shading, Walk};
+use crate::{
+    PathRay,
+    probe::{Probe, RayKind, StopReason},
+};
+
+impl<P: Probe> Walk<'_, P> {
+    /// Adds mirrored and refracted rays to `radiance`, in this order: the recorder folds them the same way.
+    pub(super) fn branches(
+        &mut self,
+        parent: &PathRay,
+        s: &Shading,
+        id: P::Id,
+        mut radiance: Spectrum,
+    ) -> Spectrum {
+        let branches = s.bsdf.branches(s.wo_local);
+        let mut count = 0;
+        for branch in branches.iter() {
+            let kind = match branch.kind {
+                BranchKind::Reflection => RayKind::Reflection,
+                BranchKind::Transmission => RayKind::Refraction,
+            };
+            let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
+            let child = parent.child(s.surface.spawn(d, parent.ray.time), branch.weight, count);
+            radiance += branch.weight * self.trace(&child, kind, id);
+            count += 1;
+        }
+        if let Some(weight) = branches.total_internal_reflection {
+            let child = parent.child(parent.ray, weight, count);
+            let refused = self.probe.ray(id, &child, RayKind::Refraction);
+            self.probe.stop(refused, StopReason::TirNoRefraction, child.throughput);
+            self.probe.result(refused, Spectrum::BLACK);
+        } else if count == 0 {
+            self.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+        }
+        radiance
+    }
+}
