@@ -6,6 +6,7 @@
 //! They differ in their [`Rules`] only.
 mod branches;
 mod lights;
+mod shadow;
 
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
