@@ -4,7 +4,7 @@ use durer_model::bsdf::{BranchKind, Bsdf, Glossy, Highlight, Lobe};
 use durer_testkit::{DVec3, microfacet::Ggx, quadrature::cosine_hemisphere, random::Random};
 
 fn glossy(f0: f32, alpha: f32) -> Glossy {
-    Glossy { f0: Spectrum::splat(f0), alpha, scale: 1.0 }
+    Glossy { f0: Spectrum::splat(f0), f90: Spectrum::ONE, alpha, scale: 1.0 }
 }
 
 /// Every lobe that reflects lights and obeys physics. `Highlight` is left out: the classic formula is neither reciprocal

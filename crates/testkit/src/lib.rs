@@ -5,6 +5,8 @@
 #![forbid(unsafe_code)]
 
 pub mod bilinear;
+pub mod chi_square;
+pub mod gloss_table;
 pub mod interface;
 pub mod microfacet;
 pub mod quadrature;

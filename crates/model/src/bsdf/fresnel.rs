@@ -35,7 +35,12 @@ pub fn normal_reflectance(eta: f32) -> f32 {
 
 /// Schlick's approximation: from `f0` at `cos = 1` to 1 at grazing incidence.
 pub fn schlick(f0: Spectrum, cos: f32) -> Spectrum {
+    let rise = schlick_rise(cos);
+    f0.map(|f| f + (1.0 - f) * rise)
+}
+
+/// How far reflectance has risen from its value at normal to that at grazing incidence: `(1 - cos)^5`.
+pub(super) fn schlick_rise(cos: f32) -> f32 {
     let m = (1.0 - cos).clamp(0.0, 1.0);
-    let m5 = sqr(sqr(m)) * m;
-    f0.map(|f| f + (1.0 - f) * m5)
+    sqr(sqr(m)) * m
 }

@@ -42,16 +42,24 @@ impl Interface {
     pub const fn clear(eta: f32) -> Self {
         Self { eta, split: Split::Fresnel { reflection: Spectrum::ONE, transmission: Spectrum::ONE } }
     }
-    pub(super) fn add_branches(&self, wo: Vector3, branches: &mut Branches) {
-        let eta = if wo.z > 0.0 { self.eta } else { 1.0 / self.eta };
-        let refracted = refract(wo, Normal3::new(0.0, 0.0, 1.0), 1.0 / eta);
-        let (reflection, transmission) = match self.split {
+    /// The index on the far side of `wo`, divided by that on its own.
+    pub(super) fn eta_seen(&self, wo: Vector3) -> f32 {
+        if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
+    }
+    /// What is reflected and what is transmitted, at a cosine of incidence and the index as in [`Self::eta_seen`].
+    pub(super) fn shares(&self, cos: f32, eta: f32) -> (Spectrum, Spectrum) {
+        match self.split {
             Split::Fresnel { reflection, transmission } => {
-                let f = fresnel_dielectric(wo.z.abs().min(1.0), eta);
+                let f = fresnel_dielectric(cos.min(1.0), eta);
                 (reflection * f, transmission * (1.0 - f))
             }
             Split::Constant { reflection, transmission } => (reflection, transmission),
-        };
+        }
+    }
+    pub(super) fn add_branches(&self, wo: Vector3, branches: &mut Branches) {
+        let eta = self.eta_seen(wo);
+        let refracted = refract(wo, Normal3::new(0.0, 0.0, 1.0), 1.0 / eta);
+        let (reflection, transmission) = self.shares(wo.z.abs(), eta);
         branches.add(BranchKind::Reflection, mirrored(wo), reflection);
         match refracted {
             Some(wi) => branches.add(BranchKind::Transmission, wi, transmission),

@@ -1,9 +1,12 @@
 //! The closed set of lobes and what each contributes.
 use std::f32::consts::FRAC_1_PI;
 
-use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_core::{
+    math::{Point2, Vector3},
+    spectrum::Spectrum,
+};
 
-use super::{BranchKind, Branches, Glossy, Highlight, Interface};
+use super::{Blurred, BranchKind, Branches, Draws, Gloss, Glossy, Highlight, Interface};
 
 /// One way in which a surface scatters light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +32,10 @@ pub enum Lobe {
     },
     /// Smooth boundary of a transparent body: reflection and refraction.
     Interface(Interface),
+    /// A mirror blurred by a power of the cosine.
+    Gloss(Gloss),
+    /// Blurred boundary of a transparent body.
+    Blurred(Blurred),
     /// Light goes straight on: partial coverage, or transmission through something thin.
     PassThrough {
         /// Share of light that passes.
@@ -48,6 +55,8 @@ impl Lobe {
             Self::Diffuse { albedo } if wo.z * wi.z > 0.0 => *albedo * FRAC_1_PI,
             Self::Highlight(highlight) => highlight.eval(wo, wi),
             Self::Glossy(glossy) => glossy.eval(wo, wi),
+            Self::Gloss(gloss) => gloss.eval(wo, wi),
+            Self::Blurred(blurred) => blurred.eval(wo, wi),
             Self::Diffuse { .. }
             | Self::Ambient { .. }
             | Self::Mirror { .. }
@@ -63,7 +72,48 @@ impl Lobe {
             }
             Self::Mirror { weight } => branches.add(BranchKind::Reflection, mirrored(wo), *weight),
             Self::Interface(interface) => interface.add_branches(wo, branches),
+            Self::Gloss(gloss) => branches.add(BranchKind::Reflection, mirrored(wo), gloss.weight),
+            Self::Blurred(blurred) => blurred.interface.add_branches(wo, branches),
             Self::PassThrough { weight } => branches.add(BranchKind::Transmission, -wo, *weight),
+        }
+    }
+    /// Adds the directions that are perfectly sharp; see [`super::Bsdf::sharp`].
+    pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
+        match self {
+            Self::Gloss(_) => {}
+            Self::Glossy(glossy) if glossy.spreads() => {}
+            Self::Blurred(blurred) => blurred.add_sharp_branches(wo, branches),
+            _ => self.add_branches(wo, branches),
+        }
+    }
+    /// Adds directions drawn at a point of the unit square, if the lobe spreads them.
+    pub(super) fn draw(&self, wo: Vector3, u: Point2, draws: &mut Draws) {
+        match self {
+            Self::Gloss(gloss) => draws.add(gloss.draw(wo, u)),
+            Self::Glossy(glossy) if glossy.spreads() => {
+                if let Some(drawn) = glossy.draw(wo, u) {
+                    draws.add(drawn);
+                }
+            }
+            Self::Blurred(blurred) => blurred.draw(wo, u, draws),
+            _ => {}
+        }
+    }
+    /// Density with which draws of this lobe meet `wi`, 1/sr; `None` if nothing is drawn from it.
+    pub fn pdf(&self, wo: Vector3, wi: Vector3) -> Option<f32> {
+        match self {
+            Self::Gloss(gloss) => Some(gloss.pdf(wo, wi)),
+            Self::Glossy(glossy) if glossy.spreads() => Some(glossy.pdf(wo, wi)),
+            Self::Blurred(blurred) => Some(blurred.pdf(wo, wi)),
+            _ => None,
+        }
+    }
+    /// Share of [`Lobe::eval`] that [`super::Bsdf::branches`] does not carry.
+    pub(super) fn share_beside_branches(&self) -> f32 {
+        match self {
+            Self::Gloss(_) | Self::Blurred(_) => 0.0,
+            Self::Glossy(glossy) => 1.0 - glossy.mirror_share(),
+            _ => 1.0,
         }
     }
     /// The colour people would name; see [`super::Bsdf::albedo`].
@@ -73,6 +123,8 @@ impl Lobe {
             Self::Ambient { .. } | Self::Highlight(_) => Spectrum::BLACK,
             Self::Glossy(glossy) => glossy.f0 * glossy.scale,
             Self::Mirror { weight } | Self::PassThrough { weight } => *weight,
+            Self::Gloss(gloss) => gloss.weight,
+            Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
         }
     }

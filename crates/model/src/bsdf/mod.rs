@@ -7,24 +7,48 @@
 //! Lights are reflected through [`Bsdf::eval`]. What is not a light is seen through [`Bsdf::branches`] (rays are
 //! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
 
+mod blurred;
 mod branch;
+mod draw;
 mod fresnel;
 mod ggx;
+mod gloss;
 mod glossy;
 mod highlight;
 mod interface;
 mod lobe;
 mod refract;
 
-use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_core::{
+    math::{Point2, Vector3},
+    spectrum::Spectrum,
+};
 
+pub use blurred::{Blur, Blurred};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use draw::{Drawn, Draws};
+use fresnel::schlick_rise;
 pub use fresnel::{fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick};
+pub use gloss::Gloss;
 pub use glossy::Glossy;
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use lobe::Lobe;
 pub use refract::{reflect, refract};
+
+/// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    /// By [`Bsdf::branches`]: mirrored rays show the light, highlights stand for what they do not carry.
+    Branches,
+    /// By [`Bsdf::draws`]: both count in proportion to their densities (balance heuristic, Veach and Guibas 1995).
+    Draws {
+        /// Density of sampling the light in this direction times its number of shadow rays, 1/sr.
+        pdf: f32,
+        /// Rays drawn from each lobe.
+        rays: f32,
+    },
+}
 
 /// The lobes at one point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,9 +89,34 @@ impl Bsdf {
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
     }
+    /// The part of [`Bsdf::eval`] that counts for the light of something that rays can meet: each lobe by its share
+    /// `keep`, which is asked with the lobe's own answer where rays of its own find the light too (see [`Seen`]).
+    pub fn eval_shared(&self, wo: Vector3, wi: Vector3, seen: Seen) -> Spectrum {
+        let mirrors = || self.lobes().any(|lobe| matches!(lobe, Lobe::Mirror { .. } | Lobe::Interface(_)));
+        self.lobes().fold(Spectrum::BLACK, |sum, lobe| {
+            let share = match (lobe, seen) {
+                (Lobe::Highlight(_), _) if mirrors() => 0.0,
+                (_, Seen::Branches) => lobe.share_beside_branches(),
+                (_, Seen::Draws { pdf, rays }) => {
+                    let own = lobe.pdf(wo, wi).map_or(0.0, |own| own * rays);
+                    pdf / (pdf + own)
+                }
+            };
+            if share == 0.0 { sum } else { sum + lobe.eval(wo, wi) * share }
+        })
+    }
     /// True if no light without extent is reflected: all lobes are perfectly sharp.
     pub fn is_sharp(&self) -> bool {
-        !self.lobes().any(|lobe| matches!(lobe, Lobe::Diffuse { .. } | Lobe::Highlight(_) | Lobe::Glossy(_)))
+        !self.lobes().any(|lobe| {
+            matches!(
+                lobe,
+                Lobe::Diffuse { .. }
+                    | Lobe::Highlight(_)
+                    | Lobe::Glossy(_)
+                    | Lobe::Gloss(_)
+                    | Lobe::Blurred(_)
+            )
+        })
     }
     /// Coefficient of the ambient term: diffuse albedo, or the ambient coefficient of a classic material.
     pub fn ambient(&self) -> Spectrum {
@@ -102,6 +151,30 @@ impl Bsdf {
             lobe.add_branches(wo, &mut branches);
         }
         branches
+    }
+    /// The perfectly sharp directions only: what is left to follow beside [`Bsdf::draws`].
+    pub fn sharp(&self, wo: Vector3) -> Branches {
+        let mut branches = Branches::default();
+        for lobe in self.lobes() {
+            lobe.add_sharp_branches(wo, &mut branches);
+        }
+        branches
+    }
+    /// Whether directions can be drawn from a lobe.
+    pub fn spreads(&self) -> bool {
+        self.lobes().any(|lobe| match lobe {
+            Lobe::Gloss(_) | Lobe::Blurred(_) => true,
+            Lobe::Glossy(glossy) => glossy.spreads(),
+            _ => false,
+        })
+    }
+    /// A direction of every lobe that spreads, at the point of the unit square that `u` gives for it.
+    pub fn draws(&self, wo: Vector3, mut u: impl FnMut(u32) -> Point2) -> Draws {
+        let mut draws = Draws::default();
+        for (number, lobe) in (0..).zip(self.lobes()) {
+            lobe.draw(wo, u(number), &mut draws);
+        }
+        draws
     }
     /// The surface's own colour as people would name it, at most 1: diffuse albedo plus the tint of what it reflects at
     /// normal incidence or transmits.

@@ -191,7 +191,12 @@ impl Material for Principled {
         let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
 
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
-        let dielectric = Glossy { f0: dielectric_f0, alpha: sqr(unit(self.roughness)), scale: coverage };
+        let dielectric = Glossy {
+            f0: dielectric_f0,
+            f90: Spectrum::ONE,
+            alpha: sqr(unit(self.roughness)),
+            scale: coverage,
+        };
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
         let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
         let body = base * below * ((1.0 - metallic) * coverage);

@@ -1,0 +1,186 @@
+//! A boundary between two media that is not smooth: frosted glass, and the translucency of Cook, Porter and Carpenter
+//! (1984).
+//!
+//! Microfacets (Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"): a normal is drawn among
+//! those seen from `wo`, light is mirrored and refracted at it. Both directions are followed, each with the share that
+//! Fresnel's equations give at that normal: `weight = F G2 / G1` and `(1 - F) G2 / G1`. As at the smooth interface,
+//! intensities are not scaled by the square of the index.
+use durer_core::{
+    math::{Normal3, Point2, Vector3},
+    spectrum::Spectrum,
+};
+
+use super::{Branch, BranchKind, Branches, Drawn, Draws, Interface, ggx, gloss, lobe::mirrored, refract};
+
+/// How directions are spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blur {
+    /// By `cos^n` about the mirrored and the refracted direction; see [`super::Gloss`]. From 1e6 on: not at all.
+    Cosine {
+        /// `n` about the mirrored direction.
+        reflection: f32,
+        /// `n` about the refracted direction.
+        transmission: f32,
+    },
+    /// By GGX microfacets of this roughness, in `(0, 1]`.
+    Microfacet {
+        /// Roughness.
+        alpha: f32,
+    },
+}
+
+/// An interface seen through a blur.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blurred {
+    /// The boundary, as if it were smooth.
+    pub interface: Interface,
+    /// How directions are spread.
+    pub blur: Blur,
+}
+
+impl Blurred {
+    /// Value without the cosine, 1/sr.
+    pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
+        if wi.z == 0.0 || wo.z == 0.0 {
+            return Spectrum::BLACK;
+        }
+        let reflects = wo.z * wi.z > 0.0;
+        let weight = match self.blur {
+            Blur::Cosine { .. } => {
+                let (reflection, transmission) =
+                    self.interface.shares(wo.z.abs(), self.interface.eta_seen(wo));
+                if reflects { reflection } else { transmission }
+            }
+            Blur::Microfacet { alpha } => {
+                let (o, i, eta) = self.upright(wo, wi);
+                let Some(h) = half_vector(o, i, eta) else { return Spectrum::BLACK };
+                let (reflection, transmission) = self.interface.shares(o.dot(h).abs(), eta);
+                (if reflects { reflection } else { transmission }) * seen_by_both(o, i, alpha)
+            }
+        };
+        weight * (self.pdf(wo, wi) / wi.z.abs())
+    }
+
+    /// Density with which [`Blurred::draw`] meets `wi`, 1/sr; 0 on a side where directions are perfectly sharp.
+    pub fn pdf(&self, wo: Vector3, wi: Vector3) -> f32 {
+        let reflects = wo.z * wi.z > 0.0;
+        match self.blur {
+            Blur::Cosine { reflection, .. } if reflects => spread_pdf(mirrored(wo), reflection, wi),
+            Blur::Cosine { transmission, .. } => match self.refracted(wo) {
+                Some(axis) => spread_pdf(axis, transmission, wi),
+                None => 0.0,
+            },
+            Blur::Microfacet { alpha } => {
+                let (o, i, eta) = self.upright(wo, wi);
+                let Some(h) = half_vector(o, i, eta) else { return 0.0 };
+                let density = ggx::visible_density(o, h, alpha);
+                if reflects {
+                    return density / (4.0 * o.dot(h));
+                }
+                let across = i.dot(h) + o.dot(h) / eta;
+                density * i.dot(h).abs() / (across * across)
+            }
+        }
+    }
+
+    /// The directions at a point of the unit square, a mirrored and a refracted one, of those that are spread.
+    pub(super) fn draw(&self, wo: Vector3, u: Point2, draws: &mut Draws) {
+        match self.blur {
+            Blur::Cosine { reflection, transmission } => {
+                let eta = self.interface.eta_seen(wo);
+                let shares = self.interface.shares(wo.z.abs(), eta);
+                if reflection < gloss::SHARP {
+                    let wi = gloss::draw(mirrored(wo), reflection, u);
+                    self.add(wo, Branch { kind: BranchKind::Reflection, wi, weight: shares.0 }, draws);
+                }
+                match self.refracted(wo) {
+                    Some(axis) if transmission < gloss::SHARP => {
+                        let wi = gloss::draw(axis, transmission, u);
+                        self.add(wo, Branch { kind: BranchKind::Transmission, wi, weight: shares.1 }, draws);
+                    }
+                    _ => {}
+                }
+            }
+            Blur::Microfacet { alpha } => self.draw_microfacet(wo, alpha, u, draws),
+        }
+    }
+
+    fn draw_microfacet(&self, wo: Vector3, alpha: f32, u: Point2, draws: &mut Draws) {
+        let (o, _, eta) = self.upright(wo, wo);
+        if o.z == 0.0 {
+            return;
+        }
+        let side = Vector3::new(1.0, 1.0, wo.z.signum());
+        let h = ggx::visible_normal(o, alpha, u);
+        let (reflection, transmission) = self.interface.shares(o.dot(h).clamp(0.0, 1.0), eta);
+        let up = h * (2.0 * o.dot(h)) - o;
+        if up.z > 0.0 {
+            let weight = reflection * seen_by_both(o, up, alpha);
+            self.add(wo, Branch { kind: BranchKind::Reflection, wi: scaled(up, side), weight }, draws);
+        }
+        if let Some(down) = refract(o, Normal3::from(h), 1.0 / eta).filter(|down| down.z < 0.0) {
+            let weight = transmission * seen_by_both(o, down, alpha);
+            self.add(wo, Branch { kind: BranchKind::Transmission, wi: scaled(down, side), weight }, draws);
+        }
+    }
+
+    fn add(&self, wo: Vector3, branch: Branch, draws: &mut Draws) {
+        if !branch.weight.is_black() {
+            draws.add(Drawn { branch, pdf: self.pdf(wo, branch.wi) });
+        }
+    }
+
+    /// The directions that are not spread at all.
+    pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
+        if let Blur::Cosine { reflection, transmission } = self.blur {
+            let mut all = Branches::default();
+            self.interface.add_branches(wo, &mut all);
+            for branch in all.iter() {
+                let exponent = match branch.kind {
+                    BranchKind::Reflection => reflection,
+                    BranchKind::Transmission => transmission,
+                };
+                if exponent >= gloss::SHARP {
+                    branches.add(branch.kind, branch.wi, branch.weight);
+                }
+            }
+            branches.total_internal_reflection = all.total_internal_reflection;
+        }
+    }
+
+    fn refracted(&self, wo: Vector3) -> Option<Vector3> {
+        refract(wo, Normal3::new(0.0, 0.0, 1.0), 1.0 / self.interface.eta_seen(wo))
+    }
+
+    /// Both directions with `wo` on the upper side, and the index there and beyond.
+    fn upright(&self, wo: Vector3, wi: Vector3) -> (Vector3, Vector3, f32) {
+        let side = Vector3::new(1.0, 1.0, if wo.z < 0.0 { -1.0 } else { 1.0 });
+        (scaled(wo, side), scaled(wi, side), self.interface.eta_seen(wo))
+    }
+}
+
+fn scaled(a: Vector3, b: Vector3) -> Vector3 {
+    Vector3::new(a.x * b.x, a.y * b.y, a.z * b.z)
+}
+
+/// Density about `axis`; 0 where the lobe is perfectly sharp.
+fn spread_pdf(axis: Vector3, exponent: f32, w: Vector3) -> f32 {
+    if exponent >= gloss::SHARP { 0.0 } else { gloss::pdf(axis, exponent, w) }
+}
+
+/// The microfacet normal, upper side, that sends light from `i` to `o`; `None` if there is none seen from its front.
+fn half_vector(o: Vector3, i: Vector3, eta: f32) -> Option<Vector3> {
+    let h = if i.z > 0.0 { o + i } else { o + i * eta };
+    if h.length_squared() == 0.0 || o.z == 0.0 {
+        return None;
+    }
+    let h = h.normalize();
+    let h = if h.z < 0.0 { -h } else { h };
+    (o.dot(h) > 0.0 && i.dot(h) * i.z > 0.0).then_some(h)
+}
+
+/// `G2 / G1(o)`: the share of the microfacets seen from `o` that is also seen from `i`.
+fn seen_by_both(o: Vector3, i: Vector3, alpha: f32) -> f32 {
+    let (co, ci) = (o.z, i.z.abs());
+    4.0 * co * ci * ggx::visibility(co, ci, alpha) / ggx::masking(co, alpha)
+}
