@@ -12,5 +12,5 @@ pub mod probe;
 mod sample;
 mod scene;
 
-pub use sample::{Contribution, PathRay, SampleCx, Value};
+pub use sample::{Contribution, Draw, PathRay, SampleCx, Value};
 pub use scene::{Object, Scene, View};

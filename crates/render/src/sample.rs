@@ -1,6 +1,6 @@
 //! What travels through light transport: the context of a sample, its rays and what it yields.
 use durer_core::{
-    math::Ray,
+    math::{Point3, Ray},
     sampling::Sampler,
     spectrum::{Basis, Spectrum},
 };
@@ -37,12 +37,33 @@ pub struct PathRay {
     pub depth: u32,
     /// The random numbers of this place in the tree.
     pub sampler: Sampler,
+    /// How many rays share the place of one, over all bounces: 1 unless rays were distributed.
+    pub siblings: f32,
+    /// The draw that chose the direction; `None` where there was no choice.
+    pub draw: Option<Draw>,
+}
+
+/// A direction that was drawn: what weighs a light that it meets against sampling the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw {
+    /// From here.
+    pub from: Point3,
+    /// Density of all draws of the lobe together, 1/sr.
+    pub density: f32,
 }
 
 impl PathRay {
     /// The eye ray of a sample.
     pub fn eye(ray: Ray, sampler: Sampler) -> Self {
-        Self { ray, weight: Spectrum::ONE, throughput: Spectrum::ONE, depth: 0, sampler }
+        Self {
+            ray,
+            weight: Spectrum::ONE,
+            throughput: Spectrum::ONE,
+            depth: 0,
+            sampler,
+            siblings: 1.0,
+            draw: None,
+        }
     }
     /// The `branch`-th ray spawned where this one ended.
     #[must_use]
@@ -53,6 +74,8 @@ impl PathRay {
             throughput: self.throughput * weight,
             depth: self.depth + 1,
             sampler: self.sampler.fork(branch),
+            siblings: self.siblings,
+            draw: None,
         }
     }
 }

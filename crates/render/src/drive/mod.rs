@@ -6,7 +6,7 @@
 mod pass;
 mod settings;
 
-pub use settings::Settings;
+pub use settings::{Nesting, Settings};
 
 use std::sync::{
     Mutex,

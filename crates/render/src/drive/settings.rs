@@ -3,6 +3,21 @@ use durer_core::{math::Interval, sampling::SamplerKind};
 
 use crate::film::Tile;
 
+/// How the samples of a pixel combine moments and points of the lens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nesting {
+    /// Moments for each point of the pixel; 0: the middle of the shutter time always.
+    pub time: u32,
+    /// Points of the lens for each moment; 0: its centre always.
+    pub lens: u32,
+}
+
+impl Default for Nesting {
+    fn default() -> Self {
+        Self { time: 1, lens: 1 }
+    }
+}
+
 /// Samples, seed, threads, shutter and crop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

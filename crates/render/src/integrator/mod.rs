@@ -4,6 +4,7 @@
 //! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
 
 mod cast;
+mod distributed;
 mod shading;
 mod walk;
 mod whitted;
@@ -16,6 +17,7 @@ use crate::{
 };
 
 pub use cast::{Cast, Show};
+pub use distributed::{Distributed, Sampling};
 pub use whitted::Whitted;
 
 /// What the film holds once it is full.
@@ -27,11 +29,26 @@ pub enum Output {
     Data(Show),
 }
 
+/// The eye rays of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EyeSamples {
+    /// How many.
+    pub total: u32,
+    /// Moments for each point of the pixel; 0: the middle of the shutter time always.
+    pub time: u32,
+    /// Points of the lens for each moment; 0: its centre always.
+    pub lens: u32,
+}
+
 /// Light transport as its author writes it, once for all probes.
 pub trait Transport: Send + Sync {
     /// What the samples mean.
     fn output(&self) -> Output {
         Output::Radiance
+    }
+    /// The eye rays of a pixel if `asked` samples are wished for.
+    fn eye_samples(&self, asked: u32) -> EyeSamples {
+        EyeSamples { total: asked, time: 1, lens: 1 }
     }
     /// Traces `ray` and all it spawns; leaves what arrives in `out`.
     fn sample<P: Probe>(
@@ -48,6 +65,8 @@ pub trait Transport: Send + Sync {
 pub trait Integrator: Send + Sync {
     /// What the samples mean.
     fn output(&self) -> Output;
+    /// [`Transport::eye_samples`].
+    fn eye_samples(&self, asked: u32) -> EyeSamples;
     /// [`Transport::sample`], unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::sample`], recorded.
@@ -59,6 +78,9 @@ pub trait Integrator: Send + Sync {
 impl<T: Transport> Integrator for T {
     fn output(&self) -> Output {
         Transport::output(self)
+    }
+    fn eye_samples(&self, asked: u32) -> EyeSamples {
+        Transport::eye_samples(self, asked)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         Transport::sample(self, cx, ray, (), &mut NoProbe, out);
@@ -72,7 +94,8 @@ impl<T: Transport> Integrator for T {
 }
 
 /// All integrators.
-pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[Entry::of::<Whitted>(), Entry::of::<Cast>()];
+pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] =
+    &[Entry::of::<Whitted>(), Entry::of::<Distributed>(), Entry::of::<Cast>()];
 
 /// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] = &[

@@ -46,7 +46,7 @@ impl Shading {
         Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, time: ray.time, surface }
     }
 
-    /// The ambient term, and the sky's blurred image in glossy lobes.
+    /// The ambient term.
     pub(super) fn ambient(&self, cx: &SampleCx<'_>) -> Spectrum {
         let n = self.surface.n_s.face_forward(self.wo);
         let coefficient = self.bsdf.ambient();
@@ -56,6 +56,12 @@ impl Shading {
                 sum += coefficient * light.ambient(cx.basis, n);
             }
         }
+        sum
+    }
+
+    /// The sky's blurred image in glossy lobes that no ray is drawn from.
+    pub(super) fn blurred_sky(&self, cx: &SampleCx<'_>) -> Spectrum {
+        let mut sum = Spectrum::BLACK;
         if let Some(glossy) = self.bsdf.glossy(self.wo_local) {
             let d = self.frame.to_world(glossy.wi);
             for light in cx.scene.surroundings() {

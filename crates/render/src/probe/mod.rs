@@ -14,7 +14,7 @@ pub use durer_accel::NoTraversalProbe as NoProbe;
 
 use durer_accel::{Hit, TraversalProbe};
 use durer_core::{Id, math::Point3, spectrum::Spectrum};
-use durer_model::Surface;
+use durer_model::{Surface, bsdf::BranchKind};
 use serde::Serialize;
 
 use crate::{Object, PathRay};
@@ -31,11 +31,37 @@ pub enum RayKind {
     Reflection,
     /// Refracted, or passing straight on.
     Refraction,
+    /// Drawn about a mirrored direction.
+    GlossyReflection,
+    /// Drawn about a refracted direction: translucency.
+    GlossyRefraction,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Eye, Self::Shadow, Self::Reflection, Self::Refraction];
+    pub const ALL: [Self; 6] = [
+        Self::Eye,
+        Self::Shadow,
+        Self::Reflection,
+        Self::Refraction,
+        Self::GlossyReflection,
+        Self::GlossyRefraction,
+    ];
+
+    /// The kind of ray that follows a perfectly sharp direction.
+    pub fn sharp(branch: BranchKind) -> Self {
+        match branch {
+            BranchKind::Reflection => Self::Reflection,
+            BranchKind::Transmission => Self::Refraction,
+        }
+    }
+    /// The kind of ray that follows a direction drawn from a lobe.
+    pub fn drawn(branch: BranchKind) -> Self {
+        match branch {
+            BranchKind::Reflection => Self::GlossyReflection,
+            BranchKind::Transmission => Self::GlossyRefraction,
+        }
+    }
 
     /// The word in exports and statistics.
     pub fn word(self) -> &'static str {
@@ -44,6 +70,8 @@ impl RayKind {
             Self::Shadow => "shadow",
             Self::Reflection => "reflection",
             Self::Refraction => "refraction",
+            Self::GlossyReflection => "glossy-reflection",
+            Self::GlossyRefraction => "glossy-refraction",
         }
     }
 }

@@ -1,6 +1,5 @@
 //! The rays that follow a hit: mirrored and refracted.
 use durer_core::spectrum::Spectrum;
-use durer_model::bsdf::BranchKind;
 
 use super::{super::shading::Shading, Walk};
 use crate::{
@@ -17,13 +16,13 @@ impl<P: Probe> Walk<'_, P> {
         id: P::Id,
         mut radiance: Spectrum,
     ) -> Spectrum {
-        let branches = s.bsdf.branches(s.wo_local);
+        let (branches, follows) = match self.rules.gloss_rays {
+            None => (s.bsdf.branches(s.wo_local), false),
+            Some(_) => (s.bsdf.sharp(s.wo_local), s.bsdf.spreads()),
+        };
         let mut count = 0;
         for branch in branches.iter() {
-            let kind = match branch.kind {
-                BranchKind::Reflection => RayKind::Reflection,
-                BranchKind::Transmission => RayKind::Refraction,
-            };
+            let kind = RayKind::sharp(branch.kind);
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
             let child = parent.child(s.surface.spawn(d, parent.ray.time), branch.weight, count);
             radiance += branch.weight * self.trace(&child, kind, id);
@@ -34,7 +33,7 @@ impl<P: Probe> Walk<'_, P> {
             let refused = self.probe.ray(id, &child, RayKind::Refraction);
             self.probe.stop(refused, StopReason::TirNoRefraction, child.throughput);
             self.probe.result(refused, Spectrum::BLACK);
-        } else if count == 0 {
+        } else if count == 0 && !follows {
             self.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
         }
         radiance

@@ -5,26 +5,21 @@
 //!
 //! They differ in their [`Rules`] only.
 mod branches;
+mod gloss;
 mod lights;
+mod rules;
 mod shadow;
 
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
+
+pub(super) use rules::{MAX_DEPTH, MIN_CONTRIBUTION, Rules};
 
 use super::shading::Shading;
 use crate::{
     Contribution, PathRay, SampleCx, Value,
     probe::{Probe, RayKind, StopReason},
 };
-
-/// What an integrator asks of the recursion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rules {
-    /// Bounces traced at most.
-    pub(super) max_depth: u32,
-    /// A branch whose share in the pixel is at or below this is not traced.
-    pub(super) min_contribution: f32,
-}
 
 /// The recursion's state: one per sample.
 pub(super) struct Walk<'a, P: Probe> {
@@ -69,7 +64,7 @@ impl<'a, P: Probe> Walk<'a, P> {
     fn reason_to_stop(&self, ray: &PathRay) -> Option<StopReason> {
         if ray.depth > self.rules.max_depth {
             Some(StopReason::DepthLimit)
-        } else if ray.depth > 0 && ray.throughput.max() <= self.rules.min_contribution {
+        } else if ray.depth > 0 && ray.throughput.max() * ray.siblings <= self.rules.min_contribution {
             Some(StopReason::ContributionBelowCutoff)
         } else {
             None
@@ -88,9 +83,16 @@ impl<'a, P: Probe> Walk<'a, P> {
         let cx = self.cx;
         let s = Shading::at(cx, &ray.ray, hit);
         self.probe.surface(id, s.object, hit, &s.surface);
-        let radiance = s.emission + s.ambient(cx);
+        let mut radiance = s.emission + s.ambient(cx);
+        if self.rules.gloss_rays.is_none() {
+            radiance += s.blurred_sky(cx);
+        }
         self.probe.local(id, radiance);
         let radiance = self.lights(ray, &s, id, radiance);
-        self.branches(ray, &s, id, radiance)
+        let radiance = self.branches(ray, &s, id, radiance);
+        match self.rules.gloss_rays {
+            Some(rays) => self.gloss(ray, &s, id, rays.get(), radiance),
+            None => radiance,
+        }
     }
 }
