@@ -1,4 +1,6 @@
 //! Options that several commands share, what they mean to the library, and how to say them again.
+mod distribution;
+
 use std::path::PathBuf;
 
 use clap::{
@@ -13,6 +15,8 @@ use durer::{
     math::Interval,
     scene::Missing,
 };
+
+use distribution::DistributionOptions;
 
 use crate::value::{crop, finite, fraction, positive, shutter, whole};
 
@@ -146,6 +150,8 @@ pub(crate) struct SampleOptions {
     pub(crate) film: FilmOptions,
     #[command(flatten)]
     pub(crate) transport: TransportOptions,
+    #[command(flatten)]
+    pub(crate) distribution: DistributionOptions,
 }
 
 impl SceneOptions {
@@ -181,6 +187,7 @@ impl SampleOptions {
             engine: accel.engine,
             preset: accel.preset,
             seed: seed.unwrap_or(0),
+            distribution: self.distribution.wishes(),
             ..self.scene.wishes()
         }
     }
@@ -210,6 +217,7 @@ impl SampleOptions {
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
         say("accel", Some(accel.word.to_owned()).filter(|word| word != DEFAULT_SEARCH));
+        self.distribution.words().into_iter().for_each(|(name, value)| say(name, value));
         if *lenient {
             words.push("--lenient".to_owned());
         }

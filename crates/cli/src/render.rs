@@ -56,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "EV", value_parser = finite, allow_negative_numbers = true, default_value_t = 0.0)]
     #[arg(help_heading = "Picture")]
     exposure: f32,
-    /// How light becomes 8-bit colours [default: none for cast and whitted, else agx].
+    /// How light becomes 8-bit colours [default: none for cast, whitted and distributed, else agx].
     #[arg(long, value_name = "NAME", value_parser = tonemap(), help_heading = "Picture")]
     tonemap: Option<ToneMap>,
     /// Counts rays, stops and tests, which takes time; as text on stderr, or as JSON on stdout.
@@ -196,7 +196,7 @@ impl Args {
 
 fn default_tonemap(integrator: &str) -> ToneMap {
     match integrator {
-        "cast" | "whitted" => ToneMap::None,
+        "cast" | "whitted" | "distributed" => ToneMap::None,
         _ => ToneMap::Agx,
     }
 }

@@ -34,7 +34,7 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 
-pub use options::Options;
+pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
 
 use std::path::Path;

@@ -3,8 +3,28 @@ use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
-use durer_render::{film::Tile, integrator::Show};
+use durer_render::{
+    film::Tile,
+    integrator::{Sampling, Show},
+};
 use durer_scene::Missing;
+
+/// Rays per effect of the integrator `distributed`; see [`durer_render::integrator::Distributed`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Distribution {
+    /// Rays to each light with extent, per hit.
+    pub shadow_rays: Option<u32>,
+    /// Rays about each blurred direction, per hit.
+    pub gloss_rays: Option<u32>,
+    /// Moments in the time the shutter is open.
+    pub time_samples: Option<u32>,
+    /// Points of the lens.
+    pub lens_samples: Option<u32>,
+    /// Points of the pixel.
+    pub aa_samples: Option<u32>,
+    /// How they are combined.
+    pub sampling: Option<Sampling>,
+}
 
 /// Wishes; `None` leaves the choice to the scene, then to the defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +45,8 @@ pub struct Options {
     pub max_depth: Option<u32>,
     /// Stop when a branch's share in the pixel is at or below this.
     pub min_contribution: Option<f32>,
+    /// Rays per effect of distributed ray tracing.
+    pub distribution: Distribution,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.

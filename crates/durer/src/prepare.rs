@@ -10,7 +10,7 @@ use durer_render::{
 };
 use durer_scene::{Data, Diagnostics, Location, Missing, Node, Param, SceneDesc, ValueType};
 
-use crate::{Options, environment};
+use crate::{Distribution, Options, environment};
 
 /// Pixels of a picture whose size nobody asked for.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
@@ -70,8 +70,9 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     let (scene, integrator) = (scene?, integrator?);
     size?;
     check_content(desc, &scene, options.nothing, diagnostics)?;
+    let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
     let settings = Settings {
-        samples: samples(desc, options, integrator.output(), diagnostics),
+        samples: eye.total,
         sampler: sampler(desc),
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),
@@ -138,30 +139,47 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
         (None, Some(node)) => node,
         (None, None) => compile::default_integrator(),
     };
-    let mut set = |name: &str, ty: ValueType, data: Data| {
-        node.params.set(Param { name: name.to_owned(), ty, data, at: Location::None });
-    };
-    if node.kind == "cast" {
-        if let Some(show) = options.show {
-            set("show", ValueType::String, Data::Strings(vec![show.word().to_owned()]));
+    if let Some(other) = compile::stand_in_integrator(&node) {
+        // Not of those that we have: the default one stands in, and the wishes are for it.
+        let message =
+            format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, other.kind);
+        diagnostics.warning(node.at.clone(), message);
+        node = other;
+    }
+    let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
+    for (wish, name, ty, data) in wishes(options) {
+        if takes.iter().any(|p| p.name == name) {
+            node.params.set(Param { name: name.to_owned(), ty, data, at: Location::None });
+        } else {
+            let takers = INTEGRATORS.iter().filter(|e| e.schema.params.iter().any(|p| p.name == name));
+            let takers: Vec<_> = takers.map(|e| format!("\"{}\"", e.schema.name)).collect();
+            let message =
+                format!("{wish} concerns the integrator {} only, not \"{}\"", takers.join(" or "), node.kind);
+            diagnostics.warning(Location::None, message);
         }
-        if options.max_depth.is_some() || options.min_contribution.is_some() {
-            diagnostics
-                .warning(Location::None, "cast follows no ray: depth and contribution limits change nothing");
-        }
-        return node;
-    }
-    if let Some(depth) = options.max_depth {
-        set("maxdepth", ValueType::Integer, Data::Ints(vec![depth.min(i32::MAX as u32) as i32]));
-    }
-    if let Some(cut) = options.min_contribution {
-        set("mincontribution", ValueType::Float, Data::Floats(vec![cut]));
-    }
-    if options.show.is_some() {
-        let message = "what is shown of a hit concerns the integrator \"cast\" only";
-        diagnostics.warning(Location::None, message).hint("add --integrator cast");
     }
     node
+}
+
+/// What the options ask of an integrator: a name for people, the parameter and its value.
+fn wishes(options: &Options) -> Vec<(&'static str, &'static str, ValueType, Data)> {
+    let Distribution { shadow_rays, gloss_rays, time_samples, lens_samples, aa_samples, sampling } =
+        options.distribution;
+    let text = |word: &str| (ValueType::String, Data::Strings(vec![word.to_owned()]));
+    let int = |n: u32| (ValueType::Integer, Data::Ints(vec![n.min(i32::MAX as u32) as i32]));
+    let float = |v: f32| (ValueType::Float, Data::Floats(vec![v]));
+    let all = [
+        ("what is shown of a hit", "show", options.show.map(|show| text(show.word()))),
+        ("the depth limit", "maxdepth", options.max_depth.map(int)),
+        ("the contribution limit", "mincontribution", options.min_contribution.map(float)),
+        ("the number of shadow rays", "shadowrays", shadow_rays.map(int)),
+        ("the number of gloss rays", "glossrays", gloss_rays.map(int)),
+        ("the number of moments", "timesamples", time_samples.map(int)),
+        ("the number of lens points", "lenssamples", lens_samples.map(int)),
+        ("the number of pixel points", "aasamples", aa_samples.map(int)),
+        ("the way samples are combined", "sampling", sampling.map(|s| text(s.word()))),
+    ];
+    all.into_iter().filter_map(|(wish, name, value)| value.map(|(ty, data)| (wish, name, ty, data))).collect()
 }
 
 fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Option<(u32, u32)> {

@@ -19,7 +19,7 @@ use durer_scene::{
 
 use rayon::prelude::*;
 
-use crate::integrator::{INTEGRATORS, Integrator, NOT_YET};
+use crate::integrator::{INTEGRATORS, Integrator};
 
 /// Builds nodes and collects complaints about them.
 pub(super) struct Builder<'a> {
@@ -229,17 +229,8 @@ pub(super) fn default_material(diagnostics: &mut Diagnostics) -> Option<Box<dyn 
     (entry.build)(&mut Args::check(&node, entry.schema, &[], diagnostics))
 }
 
-/// Builds an integrator; those of pbrt that we do not have are replaced by the default one, with a warning.
+/// Builds an integrator.
 pub fn integrator(node: &Node, diagnostics: &mut Diagnostics) -> Option<Box<dyn Integrator>> {
-    let default = super::default_integrator();
-    let node = if NOT_YET.contains(&node.kind.as_str()) {
-        let message =
-            format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, default.kind);
-        diagnostics.warning(node.at.clone(), message);
-        &default
-    } else {
-        node
-    };
     let entry = find(INTEGRATORS, "integrator", node, diagnostics)?;
     let mut args = Args::check(node, entry.schema, &[], diagnostics);
     let built = (entry.build)(&mut args);

@@ -32,6 +32,15 @@ pub enum Sampling {
 impl Sampling {
     /// The words for them.
     pub const WORDS: [&'static str; 2] = ["nested", "shared"];
+
+    /// From its word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Nested, Self::Shared].into_iter().find(|s| s.word() == word)
+    }
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
+    }
 }
 
 /// Cook's integrator. Numbers of rays are for one pixel sample, hit and light or lobe; 0 freezes an effect.
@@ -87,7 +96,7 @@ impl Kind for Distributed {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let sampling = if args.text("sampling") == "nested" { Sampling::Nested } else { Sampling::Shared };
+        let sampling = Sampling::from_word(args.text("sampling"))?;
         let count = |name: &str| args.int(name) as u32;
         let (shadow_rays, gloss_rays) = (count("shadowrays"), count("glossrays"));
         let (time_samples, lens_samples) = (count("timesamples"), count("lenssamples"));
