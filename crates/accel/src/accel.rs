@@ -192,6 +192,11 @@ impl Accel {
         self.registers.isa()
     }
 
+    /// How hits are found.
+    pub fn engine(&self) -> Engine {
+        self.engine
+    }
+
     /// Sizes and counts.
     pub fn stats(&self) -> BuildStats {
         let mut stats = BuildStats {

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod completions;
+mod cost;
 mod exit;
 mod info;
 mod interrupt;
@@ -33,6 +34,7 @@ Examples:
   durer render                            the built-in scene, to whitted.png
   durer render room.glb -o room.exr       a file of your own, as linear floats
   durer trace room.glb --pixel 320,240    why that pixel has its colour, ray by ray
+  durer cost room.glb                     what its picture costs, and where to save
   durer info room.glb                     what is in the file, and what is odd about it
 
 Exit status:
@@ -54,6 +56,7 @@ struct Cli {
 enum Command {
     Render(render::Args),
     Trace(trace::Args),
+    Cost(Box<cost::Args>),
     Info(info::Args),
     Scenes(scenes::Args),
     Completions(completions::Args),
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
+        Command::Cost(args) => cost::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Scenes(args) => scenes::run(&args),
         Command::Completions(args) => completions::run(&args),

@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 pub mod builtin;
+pub mod cost;
 mod environment;
 mod options;
 mod prepare;

@@ -5,7 +5,8 @@ use durer_io::import::Imported;
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
-    drive::{Job, Settings},
+    drive::{Job, Nesting, Settings},
+    film::Tile,
     integrator::{INTEGRATORS, Integrator, Output, Show},
 };
 use durer_scene::{Data, Diagnostics, Location, Missing, Node, Param, SceneDesc, ValueType};
@@ -34,6 +35,10 @@ pub struct Prepared {
 }
 
 impl Prepared {
+    /// The part of the picture that is rendered.
+    pub fn window(&self) -> Tile {
+        self.settings.window(self.scene.view.width, self.scene.view.height)
+    }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {
         Job { scene: &self.scene, integrator: &*self.integrator, settings: self.settings }
@@ -73,6 +78,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
     let settings = Settings {
         samples: eye.total,
+        nesting: Nesting { time: eye.time, lens: eye.lens },
         sampler: sampler(desc),
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),

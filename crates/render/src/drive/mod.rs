@@ -3,9 +3,11 @@
 //! A sample is a pure function of (scene, seed, pixel, index), and the film adds in a fixed order: the picture has the
 //! same bits for any number of threads. Integrators know nothing of this file.
 
+mod part;
 mod pass;
 mod settings;
 
+pub use part::{PartCount, scattered};
 pub use settings::{Nesting, Settings};
 
 use std::sync::{

@@ -23,6 +23,8 @@ impl Default for Nesting {
 pub struct Settings {
     /// Samples per pixel.
     pub samples: u32,
+    /// How the samples of a pixel combine moments and points of the lens.
+    pub nesting: Nesting,
     /// How sample indices become numbers.
     pub sampler: SamplerKind,
     /// Changes every random number.
@@ -39,6 +41,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             samples: 64,
+            nesting: Nesting::default(),
             sampler: SamplerKind::default(),
             seed: 0,
             threads: 1,

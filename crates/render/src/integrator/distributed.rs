@@ -120,6 +120,9 @@ impl Kind for Distributed {
 }
 
 impl Transport for Distributed {
+    fn depth_limit(&self) -> Option<u32> {
+        Some(self.rules.max_depth)
+    }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         let (time, lens, aa) = (self.time_samples, self.lens_samples, self.aa_samples.unwrap_or(asked));
         match self.sampling {

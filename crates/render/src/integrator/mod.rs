@@ -50,6 +50,10 @@ pub trait Transport: Send + Sync {
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         EyeSamples { total: asked, time: 1, lens: 1 }
     }
+    /// Bounces traced at most, if it follows rays at all.
+    fn depth_limit(&self) -> Option<u32> {
+        None
+    }
     /// Traces `ray` and all it spawns; leaves what arrives in `out`.
     fn sample<P: Probe>(
         &self,
@@ -67,6 +71,8 @@ pub trait Integrator: Send + Sync {
     fn output(&self) -> Output;
     /// [`Transport::eye_samples`].
     fn eye_samples(&self, asked: u32) -> EyeSamples;
+    /// [`Transport::depth_limit`].
+    fn depth_limit(&self) -> Option<u32>;
     /// [`Transport::sample`], unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::sample`], recorded.
@@ -81,6 +87,9 @@ impl<T: Transport> Integrator for T {
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         Transport::eye_samples(self, asked)
+    }
+    fn depth_limit(&self) -> Option<u32> {
+        Transport::depth_limit(self)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         Transport::sample(self, cx, ray, (), &mut NoProbe, out);

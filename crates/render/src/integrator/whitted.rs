@@ -31,6 +31,9 @@ impl Kind for Whitted {
 }
 
 impl Transport for Whitted {
+    fn depth_limit(&self) -> Option<u32> {
+        Some(self.0.max_depth)
+    }
     fn sample<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
