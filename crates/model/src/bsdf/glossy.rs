@@ -62,8 +62,8 @@ impl Glossy {
         let (a, b) = albedo::split_sum(cos, self.alpha);
         self.f0.map(|f| f * a + b)
     }
-    /// Share of the lobe that the mirror branch carries.
-    fn mirror_share(&self) -> f32 {
+    /// Share of the lobe that the mirror branch carries, in `[0, 1]`.
+    pub fn mirror_share(&self) -> f32 {
         let t = ((BLURRED - self.alpha) / (BLURRED - SHARP)).clamp(0.0, 1.0);
         sqr(t) * (3.0 - 2.0 * t)
     }

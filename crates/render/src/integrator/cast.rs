@@ -115,7 +115,7 @@ impl Cast {
             Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
             Show::Albedo => Value::Radiance(s.bsdf.albedo()),
             Show::Shading => {
-                let mut radiance = s.emission + s.ambient(cx);
+                let mut radiance = s.sent_out() + s.ambient(cx);
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
                 for light in lamps.iter().map(|&light| light as usize) {
                     if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {

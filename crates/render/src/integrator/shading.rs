@@ -2,14 +2,14 @@
 use durer_accel::Hit;
 use durer_core::{
     Id,
-    math::{Frame, Ray, Vector3},
+    math::{Frame, Point3, Ray, Vector3},
     sampling::Sampler,
     spectrum::Spectrum,
 };
 use durer_model::{
     Surface,
-    bsdf::{BranchKind, Bsdf},
-    light::{LightCx, LightSample},
+    bsdf::{BranchKind, Bsdf, Lobe},
+    light::{LightCx, LightHit, LightSample},
 };
 
 use crate::{Object, SampleCx};
@@ -28,22 +28,63 @@ pub(super) struct Shading {
     pub(super) wo: Vector3,
     /// The same in the frame of the lobes.
     pub(super) wo_local: Vector3,
-    /// What the surface sends out by itself.
+    /// What the material sends out by itself.
     pub(super) emission: Spectrum,
+    /// The light that was hit, if it was one.
+    pub(super) lamp: Option<Lamp>,
     /// The ray's moment, in seconds.
     pub(super) time: f32,
+}
+
+/// A light that a ray hit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lamp {
+    /// Its index in the scene.
+    pub(super) light: u32,
+    /// Where.
+    pub(super) hit: LightHit,
+    /// What it sends back along the ray.
+    pub(super) radiance: Spectrum,
 }
 
 impl Shading {
     /// The place where `ray`, of unit direction, hit.
     pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> Self {
         let (object, mut surface) = cx.scene.surface(ray, hit);
+        let lamp = cx.scene.object(object).light.map(|light| {
+            let part = cx.scene.resolve(hit).1;
+            let radiance = cx.scene.lights[light as usize].emitted(cx.basis, &surface, -ray.d);
+            Lamp { light, hit: LightHit { p: surface.p, n: surface.n_g, part }, radiance }
+        });
         let material = cx.scene.material(object);
         let wo = -ray.d;
         let emission = material.emission(&cx.shade(), &surface.texture_at());
         let bsdf = material.bsdf(&cx.shade(), &mut surface, wo);
         let frame = surface.frame();
-        Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, time: ray.time, surface }
+        Self {
+            object,
+            bsdf,
+            frame,
+            wo,
+            wo_local: frame.to_local(wo),
+            emission,
+            lamp,
+            time: ray.time,
+            surface,
+        }
+    }
+
+    /// All that leaves the surface by itself: the material's emission, and what it sends out as a light.
+    pub(super) fn sent_out(&self) -> Spectrum {
+        self.lamp.map_or(self.emission, |lamp| self.emission + lamp.radiance)
+    }
+
+    /// The density with which sampling the light that was hit, from the point `from` that the ray came from, would have
+    /// given this direction, 1/sr.
+    #[expect(dead_code, reason = "for integrators that weigh what rays and light samples find")]
+    pub(super) fn lamp_pdf(&self, cx: &SampleCx<'_>, lamp: &Lamp, from: Point3) -> f32 {
+        let asked = LightCx { basis: cx.basis, time: self.time };
+        cx.scene.lights[lamp.light as usize].pdf(&asked, from, &lamp.hit)
     }
 
     /// The ambient term, and the sky's blurred image in glossy lobes.
@@ -80,7 +121,21 @@ impl Shading {
             return None;
         }
         let wi = self.frame.to_local(sample.wi);
-        Some((self.bsdf.eval(self.wo_local, wi) * wi.z.abs(), sample))
+        let f = match sample.pdf {
+            None => self.bsdf.eval(self.wo_local, wi),
+            Some(_) => self.eval_visible(wi),
+        };
+        Some((f * wi.z.abs(), sample))
+    }
+
+    /// How much of a light that rays can meet is reflected: without what mirrored rays will see of it.
+    fn eval_visible(&self, wi: Vector3) -> Spectrum {
+        let mirrors = self.bsdf.lobes().any(|lobe| matches!(lobe, Lobe::Mirror { .. } | Lobe::Interface(_)));
+        self.bsdf.lobes().fold(Spectrum::BLACK, |sum, lobe| match lobe {
+            Lobe::Highlight(_) if mirrors => sum,
+            Lobe::Glossy(glossy) => sum + lobe.eval(self.wo_local, wi) * (1.0 - glossy.mirror_share()),
+            _ => sum + lobe.eval(self.wo_local, wi),
+        })
     }
 
     /// Near silhouettes a shading normal can send a mirrored ray into the surface, or a refracted one out of it: such a

@@ -88,7 +88,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         let cx = self.cx;
         let s = Shading::at(cx, &ray.ray, hit);
         self.probe.surface(id, s.object, hit, &s.surface);
-        let radiance = s.emission + s.ambient(cx);
+        let radiance = s.sent_out() + s.ambient(cx);
         self.probe.local(id, radiance);
         let radiance = self.lights(ray, &s, id, radiance);
         self.branches(ray, &s, id, radiance)
