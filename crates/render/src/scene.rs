@@ -29,6 +29,8 @@ pub struct Object {
     pub material: u32,
     /// Turns the normals.
     pub reverse_orientation: bool,
+    /// Index of the light that it is, if it shines.
+    pub light: Option<u32>,
 }
 
 /// What the instances of the kernel stand for.
@@ -56,6 +58,8 @@ impl Target {
 pub(crate) struct PlacedShape {
     pub(crate) shape: Arc<dyn Shape>,
     pub(crate) object: Id<Object>,
+    /// Which part of the object it is.
+    pub(crate) part: u32,
     /// Identity for moving shapes: the kernel places them.
     pub(crate) render_from_object: Transform,
     pub(crate) object_from_render: Transform,
@@ -185,12 +189,18 @@ impl Scene {
         self.accel.query(ray).user(&asked).closest().map(|hit| self.resolve(&hit).0)
     }
 
-    /// The object of a hit, and the hit triangle's number within its mesh.
+    /// The object of a hit, and which of its triangles or parts was hit.
     pub fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
         match &self.targets[hit.instance as usize] {
             Target::Baked(object, _) | Target::Mesh(object, _) => (*object, hit.prim),
-            Target::Shapes => (self.shapes[hit.prim as usize].object, 0),
-            Target::Mover(index) => (self.movers[*index as usize].object, 0),
+            Target::Shapes => {
+                let shape = &self.shapes[hit.prim as usize];
+                (shape.object, shape.part)
+            }
+            Target::Mover(index) => {
+                let shape = &self.movers[*index as usize];
+                (shape.object, shape.part)
+            }
         }
     }
 

@@ -114,6 +114,8 @@ pub struct ShapeDesc {
     pub material: Option<MaterialRef>,
     /// Turns the normals: the other side is the outside.
     pub reverse_orientation: bool,
+    /// The light that its surface sends out, if any.
+    pub area_light: Option<Arc<Node>>,
 }
 
 /// A whole scene.

@@ -135,7 +135,7 @@ impl<'a> Info<'a> {
             bounds: prepared.and_then(world_bounds),
             cameras: camera::of(desc, wishes.camera.as_deref(), wishes.time),
             view: prepared.map(camera::view),
-            lights: desc.lights.iter().map(|l| named(&l.name, &l.node)).collect(),
+            lights: lights(desc),
             materials: desc.materials.iter().map(|NamedNode { name, node }| named(name, node)).collect(),
             isa: prepared.map(|p| p.scene.accel.isa().name()),
             memory: prepared.map(|p| Memory::new(p, texture::image_bytes(desc, &imported.assets))),
@@ -164,6 +164,12 @@ impl<'a> Render<'a> {
     }
 }
 
+/// Lights that are described by themselves, then shapes that shine.
+fn lights(desc: &SceneDesc) -> Vec<Named<'_>> {
+    let shining = desc.shapes.iter().filter_map(|s| Some(named(&s.name, s.area_light.as_ref()?)));
+    desc.lights.iter().map(|l| named(&l.name, &l.node)).chain(shining).collect()
+}
+
 fn named<'a>(name: &'a str, node: &'a Node) -> Named<'a> {
     Named { name, kind: &node.kind }
 }
@@ -190,7 +196,7 @@ impl Counts {
             meshes_different: geometry.map(|g| g.meshes),
             materials: desc.materials.len(),
             textures: desc.textures.len(),
-            lights: desc.lights.len(),
+            lights: lights(desc).len(),
             cameras: desc.cameras.len(),
             vertices: geometry.map(|g| g.vertices),
             triangles_described: geometry.map(|g| g.triangles),

@@ -97,13 +97,17 @@ impl Bsdf {
             let share = match (lobe, seen) {
                 (Lobe::Highlight(_), _) if mirrors() => 0.0,
                 (_, Seen::Branches) => lobe.share_beside_branches(),
-                (_, Seen::Draws { pdf, rays }) => {
-                    let own = lobe.pdf(wo, wi).map_or(0.0, |own| own * rays);
-                    pdf / (pdf + own)
-                }
+                (_, Seen::Draws { pdf, rays }) => match lobe.pdf(wo, wi) {
+                    Some(own) if own > 0.0 => pdf / (pdf + own * rays),
+                    _ => 1.0,
+                },
             };
             if share == 0.0 { sum } else { sum + lobe.eval(wo, wi) * share }
         })
+    }
+    /// True if light from the other side is scattered to this one.
+    pub fn is_frosted(&self) -> bool {
+        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_)))
     }
     /// True if no light without extent is reflected: all lobes are perfectly sharp.
     pub fn is_sharp(&self) -> bool {

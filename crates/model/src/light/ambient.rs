@@ -1,11 +1,11 @@
 //! The constant `I_a` of the classic formula: light from nowhere that only the ambient term sees.
 use durer_core::{
-    math::{Normal3, Transform},
+    math::Normal3,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::Light;
+use super::{Light, Track};
 
 /// An ambient light.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ impl Kind for Ambient {
 }
 
 impl Light for Ambient {
-    fn place(&mut self, _render_from_light: &Transform) {}
+    fn place(&mut self, _track: &Track) {}
     fn surrounds(&self) -> bool {
         true
     }

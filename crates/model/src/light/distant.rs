@@ -1,18 +1,14 @@
 //! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. The sun.
-use durer_core::{
-    math::{Point3, Transform, Vector3},
-    sampling::Sampler,
-    spectrum::Color,
-};
+use durer_core::{math::Point3, sampling::Sampler, spectrum::Color};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightCx, LightSample, axis, scaled};
+use super::{Light, LightCx, LightSample, Track, axis, scaled, track::Anchor};
 
 /// A distant light.
 #[derive(Debug)]
 pub struct Distant {
-    /// Unit direction in which the light travels.
-    direction: Vector3,
+    /// The direction in which the light travels.
+    anchor: Anchor,
     irradiance: Color,
 }
 
@@ -47,17 +43,19 @@ impl Kind for Distant {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let irradiance = scaled(args, "L", "illuminance", 1.0);
-        let (from, to) = (args.triple("from").into(), args.triple("to").into());
-        Some(Box::new(Self { direction: axis(args, from, to)?, irradiance }))
+        let (from, to): (Point3, Point3) = (args.triple("from").into(), args.triple("to").into());
+        let anchor = Anchor::new(from, axis(args, from, to)?);
+        Some(Box::new(Self { anchor, irradiance }))
     }
 }
 
 impl Light for Distant {
-    fn place(&mut self, render_from_light: &Transform) {
-        self.direction = render_from_light.vector(self.direction).normalize();
+    fn place(&mut self, track: &Track) {
+        self.anchor.place(track);
     }
     fn sample(&self, cx: &LightCx, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let weight = cx.basis.emission(self.irradiance);
-        (!weight.is_black()).then_some(LightSample { wi: -self.direction, point: None, weight, pdf: None })
+        let (_, direction) = self.anchor.at(cx.time);
+        (!weight.is_black()).then_some(LightSample { wi: -direction, point: None, weight, pdf: None })
     }
 }

@@ -4,12 +4,12 @@
 //! horizon and `horizon + (ground - horizon) v(-s)`, `v = 1 - (1 - s)^8`, below: continuous, with a thin rim of haze under
 //! the horizon. The ambient term and glossy reflections weigh the three colours by blurred `w` and `v` (`sky_blur.rs`).
 use durer_core::{
-    math::{Normal3, Transform, Vector3, float::sqr},
+    math::{Normal3, Vector3, float::sqr},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, sky_blur::SkyBlur};
+use super::{Light, Track, sky_blur::SkyBlur};
 
 /// A gradient sky.
 #[derive(Debug)]
@@ -86,8 +86,9 @@ impl GradientSky {
 }
 
 impl Light for GradientSky {
-    fn place(&mut self, render_from_light: &Transform) {
-        self.up = render_from_light.vector(self.up).normalize();
+    fn place(&mut self, track: &Track) {
+        let m = track.at(f32::NEG_INFINITY);
+        self.up = Vector3::from_f64(m.transform_vector3(self.up.to_f64()).normalize());
     }
     fn surrounds(&self) -> bool {
         true

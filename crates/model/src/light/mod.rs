@@ -3,6 +3,7 @@
 //! A new light is one file here and one line in [`LIGHTS`].
 
 mod ambient;
+mod area;
 mod distant;
 mod falloff;
 mod gradient_sky;
@@ -10,20 +11,28 @@ mod infinite;
 mod point;
 mod sky_blur;
 mod spot;
+mod track;
 
 use std::fmt::Debug;
 
 use durer_core::{
-    math::{Normal3, Point3, Transform, Vector3},
+    math::{Normal3, Point3, Vector3},
     sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
-    ambient::Ambient, distant::Distant, gradient_sky::GradientSky, infinite::Infinite, point::Point,
+    ambient::Ambient,
+    area::{Area, Emission, Orientation},
+    distant::Distant,
+    gradient_sky::GradientSky,
+    infinite::Infinite,
+    point::Point,
     spot::Spot,
+    track::Track,
 };
+use crate::Surface;
 
 /// Light arriving at a point from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,13 +59,25 @@ pub struct LightCx {
 
 /// A light, in render space once placed.
 pub trait Light: Debug + Send + Sync {
-    /// Moves the light from its own space into render space.
-    fn place(&mut self, render_from_light: &Transform);
+    /// Moves the light from its own space into render space, where `track` goes. Lights that surround the scene stand
+    /// still where it begins.
+    fn place(&mut self, track: &Track);
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
     fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let _ = (cx, p, sampler);
         None
+    }
+    /// The density with which [`Light::sample`], asked at `from`, gives the direction of a point of this light, 1/sr; 0 if
+    /// that side of it does not shine, and for lights that rays cannot meet.
+    fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {
+        let _ = (cx, from, hit);
+        0.0
+    }
+    /// Radiance that leaves a point of this light in unit direction `wo`; black for lights that rays cannot meet.
+    fn emitted(&self, basis: Basis, surface: &Surface, wo: Vector3) -> Spectrum {
+        let _ = (basis, surface, wo);
+        Spectrum::BLACK
     }
     /// Whether it surrounds the scene: it is not sampled, but has an ambient term or is seen by rays that left.
     fn surrounds(&self) -> bool {
@@ -80,6 +101,20 @@ pub trait Light: Debug + Send + Sync {
     }
 }
 
+/// A point of a light that a ray met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightHit {
+    /// The point.
+    pub p: Point3,
+    /// Unit geometric normal, on the outside.
+    pub n: Normal3,
+    /// Which triangle or patch of the shape it belongs to.
+    pub part: u32,
+}
+
+/// All kinds of light that shapes can be.
+pub const AREA_LIGHTS: &[Entry<Emission>] = &[Entry::of::<Emission>()];
+
 /// All kinds of light.
 pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
     Entry::of::<Point>(),
@@ -90,8 +125,8 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
     Entry::of::<Ambient>(),
 ];
 
-/// Words of pbrt-v4 that are known but not built yet; `diffuse` is its area light.
-pub const NOT_YET: &[&str] = &["diffuse", "goniometric", "projection"];
+/// Words of pbrt-v4 that are known but not built yet.
+pub const NOT_YET: &[&str] = &["goniometric", "projection"];
 
 /// Lights that are all around: what a picture of the surroundings replaces.
 pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky"];

@@ -2,18 +2,21 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Point3, Transform},
+    math::{Point3, Vector3},
     sampling::Sampler,
     spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, falloff::Falloff, scaled};
+use super::{
+    INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff, scaled,
+    track::Anchor,
+};
 
 /// A point light.
 #[derive(Debug)]
 pub struct Point {
-    position: Point3,
+    anchor: Anchor,
     intensity: Color,
     falloff: Falloff,
 }
@@ -34,18 +37,20 @@ impl Kind for Point {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let intensity = scaled(args, "I", "power", 4.0 * PI);
-        let position = args.triple("from").into();
-        Some(Box::new(Self { position, intensity, falloff: Falloff::from_args(args) }))
+        let from: Point3 = args.triple("from").into();
+        let anchor = Anchor::new(from, Vector3::new(0.0, 0.0, 1.0));
+        Some(Box::new(Self { anchor, intensity, falloff: Falloff::from_args(args) }))
     }
 }
 
 impl Light for Point {
-    fn place(&mut self, render_from_light: &Transform) {
-        self.position = render_from_light.point(self.position);
+    fn place(&mut self, track: &Track) {
+        self.anchor.place(track);
     }
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        let (wi, irradiance) = self.falloff.towards(self.position, p)?;
+        let (position, _) = self.anchor.at(cx.time);
+        let (wi, irradiance) = self.falloff.towards(position, p)?;
         let weight = cx.basis.emission(self.intensity) * irradiance;
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight, pdf: None })
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
 }

@@ -6,20 +6,22 @@
 use std::f32::consts::{PI, TAU};
 
 use durer_core::{
-    math::{Point3, Transform, Vector3, float::cos},
+    math::{Point3, float::cos},
     sampling::Sampler,
     spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, axis, falloff::Falloff, scaled};
+use super::{
+    INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff, scaled,
+    track::Anchor,
+};
 
 /// A spot light.
 #[derive(Debug)]
 pub struct Spot {
-    position: Point3,
-    /// Unit direction of the cone's axis.
-    axis: Vector3,
+    /// The position, and the direction of the cone's axis.
+    anchor: Anchor,
     cos_inner: f32,
     cos_outer: f32,
     intensity: Color,
@@ -60,10 +62,10 @@ impl Kind for Spot {
         let (cos_inner, cos_outer) = (cos(inner * radians), cos(outer * radians));
         let reach = TAU * ((1.0 - cos_inner) + 0.5 * (cos_inner - cos_outer));
         let intensity = scaled(args, "I", "power", reach.max(f32::MIN_POSITIVE));
-        let (from, to) = (args.triple("from").into(), args.triple("to").into());
-        let axis = axis(args, from, to)?;
+        let (from, to): (Point3, Point3) = (args.triple("from").into(), args.triple("to").into());
+        let anchor = Anchor::new(from, axis(args, from, to)?);
         let falloff = Falloff::from_args(args);
-        Some(Box::new(Self { position: from, axis, cos_inner, cos_outer, intensity, falloff }))
+        Some(Box::new(Self { anchor, cos_inner, cos_outer, intensity, falloff }))
     }
 }
 
@@ -82,13 +84,13 @@ impl Spot {
 }
 
 impl Light for Spot {
-    fn place(&mut self, render_from_light: &Transform) {
-        self.position = render_from_light.point(self.position);
-        self.axis = render_from_light.vector(self.axis).normalize();
+    fn place(&mut self, track: &Track) {
+        self.anchor.place(track);
     }
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        let (wi, irradiance) = self.falloff.towards(self.position, p)?;
-        let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(self.axis)));
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(self.position), weight, pdf: None })
+        let (position, axis) = self.anchor.at(cx.time);
+        let (wi, irradiance) = self.falloff.towards(position, p)?;
+        let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
 }

@@ -1,7 +1,10 @@
 //! Disk, ring or sector of one, perpendicular to the z axis (Physically Based Rendering, 4th edition, section 6.4).
 //!
 //! `t = (h - o_z) / d_z`; a hit counts if `r_i^2 <= x^2 + y^2 <= r^2` and `0 <= phi <= phi_max`.
-use std::f32::consts::TAU;
+use std::{
+    f32::consts::TAU,
+    f64::consts::{FRAC_PI_2, FRAC_PI_4},
+};
 
 use durer_core::{
     glam::DVec3,
@@ -9,7 +12,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{ALPHA, Geometry, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier};
+use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier};
 use crate::Surface;
 
 /// A disk at `z = height`; the outside is towards +z. `u = phi / phi_max`, `v` is 0 at the rim and 1 at the inner
@@ -68,6 +71,43 @@ impl Shape for Disk {
     fn area(&self) -> f32 {
         self.phi_max * 0.5 * (self.radius - self.inner_radius) * (self.radius + self.inner_radius)
     }
+
+    fn outline(&self) -> Outline {
+        Outline::Curved
+    }
+
+    /// A whole disk keeps squares square (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square"); of rings
+    /// and sectors the square of the radius is uniform.
+    fn by_area(&self, u: Point2) -> Option<AreaPoint> {
+        let (outer, inner) = (f64::from(self.radius), f64::from(self.inner_radius));
+        let (x, y) = if inner == 0.0 && self.phi_max == TAU {
+            let (x, y) = concentric(u);
+            (x * outer, y * outer)
+        } else {
+            let r = (inner * inner + (outer * outer - inner * inner) * f64::from(u.x)).sqrt();
+            let (sin, cos) = libm::sincos(f64::from(self.phi_max) * f64::from(u.y));
+            (r * cos, r * sin)
+        };
+        let p = DVec3::new(x, y, self.carrier.origin.z);
+        Some(AreaPoint { p, n: DVec3::Z, density: self.area_density(p, p) })
+    }
+
+    fn area_density(&self, _from: DVec3, _p: DVec3) -> f64 {
+        let (outer, inner) = (f64::from(self.radius), f64::from(self.inner_radius));
+        2.0 / (f64::from(self.phi_max) * (outer - inner) * (outer + inner))
+    }
+}
+
+/// The point of the unit disk for one of the unit square.
+fn concentric(u: Point2) -> (f64, f64) {
+    let (x, y) = (2.0 * f64::from(u.x) - 1.0, 2.0 * f64::from(u.y) - 1.0);
+    if x == 0.0 && y == 0.0 {
+        return (0.0, 0.0);
+    }
+    let (r, angle) =
+        if x.abs() > y.abs() { (x, FRAC_PI_4 * (y / x)) } else { (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)) };
+    let (sin, cos) = libm::sincos(angle);
+    (r * cos, r * sin)
 }
 
 impl Kind for Disk {

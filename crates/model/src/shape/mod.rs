@@ -4,6 +4,7 @@
 
 mod bilinear;
 mod disk;
+pub(crate) mod flat;
 pub mod loopsubdiv;
 mod mesh;
 mod plane;
@@ -14,7 +15,10 @@ mod trianglemesh;
 
 use std::{f32::consts::TAU, fmt::Debug, sync::Arc};
 
-use durer_core::math::{Bounds3, Ray, float};
+use durer_core::{
+    glam::DVec3,
+    math::{Bounds3, Point2, Ray, float},
+};
 use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
 pub use bilinear::{BilinearMesh, Patch};
@@ -50,6 +54,48 @@ pub trait Shape: Debug + Send + Sync {
     fn surface(&self, ray: &Ray, hit: &ShapeHit) -> Surface;
     /// Surface area; infinite for infinite shapes.
     fn area(&self) -> f32;
+    /// What it is for those who choose points of it, as lights do.
+    fn outline(&self) -> Outline;
+    /// A point chosen by `u` in `[0, 1)²`, which is spread over the area as evenly as can be; asked of
+    /// [`Outline::Sphere`] and [`Outline::Curved`]. `None` if there is nothing to choose from.
+    fn by_area(&self, u: Point2) -> Option<AreaPoint> {
+        let _ = u;
+        None
+    }
+    /// The density, in 1/m², with which [`Shape::by_area`] gives the point `p` of the shape, which is seen from `from`.
+    fn area_density(&self, from: DVec3, p: DVec3) -> f64 {
+        let _ = (from, p);
+        1.0 / f64::from(self.area())
+    }
+}
+
+/// A point chosen on a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaPoint {
+    /// The point.
+    pub p: DVec3,
+    /// Unit normal, on the outside.
+    pub n: DVec3,
+    /// Density of the choice, 1/m².
+    pub density: f64,
+}
+
+/// A shape as those see it who choose points of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outline {
+    /// A whole sphere around the origin.
+    Sphere {
+        /// Its radius.
+        radius: f64,
+    },
+    /// A corner and both edges; the outside is towards their cross product.
+    Parallelogram(DVec3, [DVec3; 2]),
+    /// Triangles that cover it, each point once; the outside is where their corners are seen counter-clockwise.
+    Triangles(Vec<[DVec3; 3]>),
+    /// Points of it can be chosen by [`Shape::by_area`] only.
+    Curved,
+    /// No point of it can be chosen.
+    Infinite,
 }
 
 /// What a shape's description becomes.

@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Geometry, Shape, ShapeHit, accept};
+use super::{Geometry, Outline, Shape, ShapeHit, accept};
 use crate::Surface;
 
 /// A plane through a point with axes for texture coordinates, in f64: what all flat shapes lie in.
@@ -141,6 +141,9 @@ impl Shape for Plane {
     }
     fn area(&self) -> f32 {
         f32::INFINITY
+    }
+    fn outline(&self) -> Outline {
+        Outline::Infinite
     }
 }
 

@@ -12,7 +12,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{ALPHA, Geometry, Shape, ShapeHit, accept, arc_angle};
+use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, accept, arc_angle};
 use crate::Surface;
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
@@ -168,6 +168,24 @@ impl Shape for Sphere {
 
     fn area(&self) -> f32 {
         self.phi_max * self.radius * (self.z_max - self.z_min)
+    }
+
+    fn outline(&self) -> Outline {
+        if self.whole { Outline::Sphere { radius: self.radius.into() } } else { Outline::Curved }
+    }
+
+    /// Archimedes: heights are uniform.
+    fn by_area(&self, u: Point2) -> Option<AreaPoint> {
+        let (r, low, high) = (f64::from(self.radius), f64::from(self.z_min), f64::from(self.z_max));
+        let z = low + (high - low) * f64::from(u.x);
+        let (sin, cos) = libm::sincos(f64::from(self.phi_max) * f64::from(u.y));
+        let across = (r * r - z * z).max(0.0).sqrt();
+        let p = DVec3::new(across * cos, across * sin, z);
+        Some(AreaPoint { p, n: p / r, density: 1.0 / (f64::from(self.phi_max) * r * (high - low)) })
+    }
+
+    fn area_density(&self, _from: DVec3, _p: DVec3) -> f64 {
+        1.0 / (f64::from(self.phi_max) * f64::from(self.radius) * f64::from(self.z_max - self.z_min))
     }
 }
 

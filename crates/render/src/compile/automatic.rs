@@ -56,7 +56,8 @@ pub(super) fn lights(
     diagnostics: &mut Diagnostics,
 ) -> Vec<LightDesc> {
     let supported = |l: &&LightDesc| !light::NOT_YET.contains(&l.node.kind.as_str());
-    if desc.lights.iter().any(|l| supported(&l)) {
+    let shines = desc.shapes.iter().any(|shape| shape.area_light.is_some());
+    if shines || desc.lights.iter().any(|l| supported(&l)) {
         return desc.lights.clone();
     }
     if desc.lights.is_empty() {

@@ -24,6 +24,17 @@ use crate::{
     scene::{PlacedShape, Target},
 };
 
+impl Object {
+    /// What the `index`-th shape of a description is called.
+    pub(super) fn name(shape: &ShapeDesc, index: usize) -> String {
+        let kind = match &shape.source {
+            ShapeSource::Node(node) => node.kind.as_str(),
+            ShapeSource::Mesh(_) => "mesh",
+        };
+        if shape.name.is_empty() { format!("{kind} {index}") } else { shape.name.clone() }
+    }
+}
+
 /// What becomes of the shapes of a description.
 pub(super) struct Placed {
     pub(super) accel: Accel,
@@ -43,6 +54,8 @@ pub(super) struct Placing<'a> {
     pub(super) render_from_world: DAffine3,
     pub(super) default_material: u32,
     pub(super) materials: &'a [Box<dyn Material>],
+    /// The light of each shape.
+    pub(super) lights: &'a [Option<u32>],
     pub(super) accel: BuildOptions,
 }
 
@@ -64,10 +77,12 @@ struct Pending {
 }
 
 impl Pending {
-    fn shape(&mut self, shape: Arc<dyn Shape>, object: Id<Object>, motion: &Motion) {
+    /// Adds a shape: which part of which object.
+    fn shape(&mut self, shape: Arc<dyn Shape>, (object, part): (Id<Object>, u32), motion: &Motion) {
         let place = |m: Transform| PlacedShape {
             shape,
             object,
+            part,
             render_from_object: m,
             object_from_render: m.inverse(),
         };
@@ -148,7 +163,8 @@ impl Placing<'_> {
                     pending.meshes.push(PendingMesh { object, mesh, motion, shared });
                 }
                 Some(Geometry::Shapes(parts)) => {
-                    parts.into_iter().for_each(|part| pending.shape(part, object, &motion));
+                    let parts = (0..).zip(parts);
+                    parts.for_each(|(part, shape)| pending.shape(shape, (object, part), &motion));
                 }
                 None => {}
             }
@@ -171,14 +187,11 @@ impl Placing<'_> {
     }
 
     fn object(&self, shape: &ShapeDesc, index: usize) -> Object {
-        let kind = match &shape.source {
-            ShapeSource::Node(node) => node.kind.as_str(),
-            ShapeSource::Mesh(_) => "mesh",
-        };
         Object {
-            name: if shape.name.is_empty() { format!("{kind} {index}") } else { shape.name.clone() },
+            name: Object::name(shape, index),
             material: shape.material.map_or(self.default_material, |m| m.index() as u32),
             reverse_orientation: shape.reverse_orientation,
+            light: self.lights.get(index).copied().flatten(),
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod automatic;
 mod geometry;
+mod lights;
 mod nodes;
 mod report;
 
@@ -76,6 +77,7 @@ pub fn compile(
     let bends = |g: &Geometry| matches!(g, Geometry::Mesh(mesh) if !mesh.is_still());
     let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still())
         || desc.meshes.iter().any(|mesh| !mesh.is_still())
+        || desc.lights.iter().any(|l| !l.world_from_light.is_still())
         || shapes.iter().flatten().any(bends);
     let shutter = shutter(&camera, moves, options);
     let opening = f64::from(shutter.min);
@@ -88,13 +90,15 @@ pub fn compile(
     let origin = world_from_camera.translation;
     let view = view(&mut nodes, &camera, &world_from_camera, options, shutter);
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
-    let lights = nodes.lights(&lights, -origin, shutter);
+    let render_from_world = DAffine3::from_translation(-origin);
+    let lights = nodes.lights(&lights, &shapes, &render_from_world, shutter);
 
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let placing = geometry::Placing {
         desc,
-        render_from_world: DAffine3::from_translation(-origin),
+        render_from_world,
+        lights: &lights.of_shapes,
         default_material,
         materials: &materials,
         accel: options.accel,
@@ -105,7 +109,7 @@ pub fn compile(
     if diagnostics.has_errors() {
         return None;
     }
-    let (lights, light_names): (Vec<Box<dyn Light>>, _) = lights.into_iter().unzip();
+    let lights::Lights { lights, names: light_names, .. } = lights;
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
     Some(Scene {

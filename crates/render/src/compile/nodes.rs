@@ -1,20 +1,15 @@
 //! Nodes to things: the registries of `durer-model` and of the integrators, applied to a description.
 use std::{collections::HashMap, sync::Arc};
 
-use durer_core::{
-    glam::{DAffine3, DVec3},
-    math::{Interval, Transform},
-};
 use durer_model::{
     camera::{CAMERAS, Camera},
-    light::{self, LIGHTS, Light},
     material::{self, MATERIALS, Material},
     shape::{self, Geometry, SHAPES},
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, LightDesc, Location, Missing, Node, Params, SceneDesc, ShapeDesc,
-    ShapeSource, TextureDesc, TextureNames, find,
+    Args, Assets, Diagnostics, Entry, Location, Missing, Node, Params, SceneDesc, ShapeDesc, ShapeSource,
+    TextureDesc, TextureNames, find,
 };
 
 use rayon::prelude::*;
@@ -31,7 +26,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn build<T>(
+    pub(super) fn build<T>(
         &mut self,
         registry: &[Entry<T>],
         family: &str,
@@ -133,43 +128,6 @@ impl Builder<'_> {
     pub(super) fn camera(&mut self, node: &Node) -> Option<Box<dyn Camera>> {
         self.build(CAMERAS, "camera", node, &self.desc.textures)
     }
-
-    /// The lights with their names, placed in render space, which is the world moved by `to_render`, as they are when
-    /// the shutter opens.
-    pub(super) fn lights(
-        &mut self,
-        lights: &[LightDesc],
-        to_render: DVec3,
-        shutter: Interval,
-    ) -> Vec<(Box<dyn Light>, String)> {
-        let is_not_yet = |desc: &&LightDesc| light::NOT_YET.contains(&desc.node.kind.as_str());
-        let left_out: Vec<&Node> = lights.iter().filter(is_not_yet).map(|desc| &desc.node).collect();
-        warn_not_yet("light", "it gives no light", &left_out, self.diagnostics);
-        let mut built = Vec::new();
-        for desc in lights.iter().filter(|desc| !is_not_yet(desc)) {
-            let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
-                continue;
-            };
-            if shutter.min != shutter.max && !desc.world_from_light.is_still() {
-                let message =
-                    "moving lights are not supported yet: it stands still where it is when the shutter opens";
-                self.diagnostics.warning(desc.node.at.clone(), message);
-            }
-            let world_from_light = desc.world_from_light.at(shutter.min.into());
-            let transform = Transform::from_f64(&(DAffine3::from_translation(to_render) * world_from_light));
-            if !transform.is_invertible() {
-                self.diagnostics.error(desc.node.at.clone(), "the light's transform cannot be inverted");
-                continue;
-            }
-            light.place(&transform);
-            let name = match desc.name.as_str() {
-                "" => format!("{} {}", desc.node.kind, built.len()),
-                name => name.to_owned(),
-            };
-            built.push((light, name));
-        }
-        built
-    }
 }
 
 /// The node of a shape that pbrt knows and we do not.
@@ -181,7 +139,7 @@ fn not_yet(shape: &ShapeDesc) -> Option<&Node> {
 }
 
 /// One warning for each kind among `nodes`, at its first use.
-fn warn_not_yet(family: &str, what: &str, nodes: &[&Node], diagnostics: &mut Diagnostics) {
+pub(super) fn warn_not_yet(family: &str, what: &str, nodes: &[&Node], diagnostics: &mut Diagnostics) {
     let mut kinds: Vec<(&Node, usize)> = Vec::new();
     for node in nodes {
         match kinds.iter_mut().find(|(first, _)| first.kind == node.kind) {

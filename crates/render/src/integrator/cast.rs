@@ -1,6 +1,7 @@
 //! Ray casting: one ray per sample, and what the lecture shows of the hit: depth, normal, local shading.
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
+use durer_model::bsdf::Seen;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Integrator, Output, Transport, shading::Shading};
@@ -115,10 +116,10 @@ impl Cast {
             Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
             Show::Albedo => Value::Radiance(s.bsdf.albedo()),
             Show::Shading => {
-                let mut radiance = s.emission + s.ambient(cx) + s.blurred_sky(cx);
+                let mut radiance = s.sent_out() + s.ambient(cx) + s.blurred_sky(cx);
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
                 for light in lamps.iter().map(|&light| light as usize) {
-                    if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {
+                    if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32), |_| Seen::Branches) {
                         radiance += weight * sample.weight;
                     }
                 }

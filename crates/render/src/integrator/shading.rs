@@ -2,14 +2,14 @@
 use durer_accel::Hit;
 use durer_core::{
     Id,
-    math::{Frame, Ray, Vector3},
+    math::{Frame, Point3, Ray, Vector3},
     sampling::Sampler,
     spectrum::Spectrum,
 };
 use durer_model::{
     Surface,
-    bsdf::{BranchKind, Bsdf},
-    light::{LightCx, LightSample},
+    bsdf::{BranchKind, Bsdf, Seen},
+    light::{LightCx, LightHit, LightSample},
 };
 
 use crate::{Object, SampleCx};
@@ -28,22 +28,62 @@ pub(super) struct Shading {
     pub(super) wo: Vector3,
     /// The same in the frame of the lobes.
     pub(super) wo_local: Vector3,
-    /// What the surface sends out by itself.
+    /// What the material sends out by itself.
     pub(super) emission: Spectrum,
+    /// The light that was hit, if it was one.
+    pub(super) lamp: Option<Lamp>,
     /// The ray's moment, in seconds.
     pub(super) time: f32,
+}
+
+/// A light that a ray hit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lamp {
+    /// Its index in the scene.
+    pub(super) light: u32,
+    /// Where.
+    pub(super) hit: LightHit,
+    /// What it sends back along the ray.
+    pub(super) radiance: Spectrum,
 }
 
 impl Shading {
     /// The place where `ray`, of unit direction, hit.
     pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> Self {
         let (object, mut surface) = cx.scene.surface(ray, hit);
+        let lamp = cx.scene.object(object).light.map(|light| {
+            let part = cx.scene.resolve(hit).1;
+            let radiance = cx.scene.lights[light as usize].emitted(cx.basis, &surface, -ray.d);
+            Lamp { light, hit: LightHit { p: surface.p, n: surface.n_g, part }, radiance }
+        });
         let material = cx.scene.material(object);
         let wo = -ray.d;
         let emission = material.emission(&cx.shade(), &surface.texture_at());
         let bsdf = material.bsdf(&cx.shade(), &mut surface, wo);
         let frame = surface.frame();
-        Self { object, bsdf, frame, wo, wo_local: frame.to_local(wo), emission, time: ray.time, surface }
+        Self {
+            object,
+            bsdf,
+            frame,
+            wo,
+            wo_local: frame.to_local(wo),
+            emission,
+            lamp,
+            time: ray.time,
+            surface,
+        }
+    }
+
+    /// All that leaves the surface by itself: the material's emission, and what it sends out as a light.
+    pub(super) fn sent_out(&self) -> Spectrum {
+        self.lamp.map_or(self.emission, |lamp| self.emission + lamp.radiance)
+    }
+
+    /// The density with which sampling the light that was hit, from the point `from` that the ray came from, would have
+    /// given this direction, 1/sr.
+    pub(super) fn lamp_pdf(&self, cx: &SampleCx<'_>, lamp: &Lamp, from: Point3) -> f32 {
+        let asked = LightCx { basis: cx.basis, time: self.time };
+        cx.scene.lights[lamp.light as usize].pdf(&asked, from, &lamp.hit)
     }
 
     /// The ambient term.
@@ -72,21 +112,28 @@ impl Shading {
     }
 
     /// A sample of one light and what its arriving light is multiplied with; `None` if the light lies behind the surface
-    /// or is none to cast shadow rays to. Pointless where all lobes are sharp.
+    /// or is none to cast shadow rays to. Pointless where all lobes are sharp. `seen` tells how other rays meet a light of
+    /// which a direction is sampled with a density, so that it does not count twice.
     pub(super) fn light(
         &self,
         cx: &SampleCx<'_>,
         light: usize,
         sampler: &Sampler,
+        seen: impl FnOnce(f32) -> Seen,
     ) -> Option<(Spectrum, LightSample)> {
         let asked = LightCx { basis: cx.basis, time: self.time };
         let sample = cx.scene.lights[light].sample(&asked, self.surface.p, sampler)?;
-        // Light from the other side of the true surface does not come through, whatever the shading normal says.
-        if self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo) {
+        // Light from the other side of the true surface comes through frosted glass only, whatever the shading normal says.
+        let other_side = self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo);
+        if other_side && !self.bsdf.is_frosted() {
             return None;
         }
         let wi = self.frame.to_local(sample.wi);
-        Some((self.bsdf.eval(self.wo_local, wi) * wi.z.abs(), sample))
+        let f = match sample.pdf {
+            None => self.bsdf.eval(self.wo_local, wi),
+            Some(pdf) => self.bsdf.eval_shared(self.wo_local, wi, seen(pdf)),
+        };
+        Some((f * wi.z.abs(), sample))
     }
 
     /// Near silhouettes a shading normal can send a mirrored ray into the surface, or a refracted one out of it: such a

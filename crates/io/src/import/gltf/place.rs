@@ -242,6 +242,7 @@ impl<'w, 'a> Walk<'w, 'a> {
                 world_from_object: Motion::still(world),
                 material,
                 reverse_orientation: false,
+                area_light: None,
             });
         }
     }

@@ -76,6 +76,7 @@ pub(super) fn shapes(
             world_from_object: Motion::still(DAffine3::IDENTITY),
             material: library.get(&key.material).or(default),
             reverse_orientation: false,
+            area_light: None,
         });
     }
 }

@@ -98,6 +98,7 @@ impl Parser<'_> {
             placement: self.state.ctm.clone(),
             material: self.state.material,
             reverse: self.state.reverse,
+            area_light: self.state.area_light.clone(),
         });
         if let Err(message) = fits
             && self.first_time(message)
@@ -136,9 +137,9 @@ impl Parser<'_> {
     /// `AreaLightSource`
     pub(super) fn area_light(&mut self, head: Token) -> Result<(), Reported> {
         let (kind, params) = self.kind_and_params(head, "a kind of area light")?;
+        let params = self.inherit(Target::Light, params, &kind);
         let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
-        let world_from_light = self.state.ctm.motion(self.world.times);
-        self.world.desc.lights.push(LightDesc { name: String::new(), node, world_from_light });
+        self.state.area_light = Some(Arc::new(node));
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! The graphics state and the blocks that save it.
 use std::sync::Arc;
 
-use durer_scene::{MaterialRef, Span};
+use durer_scene::{MaterialRef, Node, Span};
 
 use super::{
     directive::Directive,
@@ -67,6 +67,8 @@ pub(super) struct State {
     pub(super) material: Option<MaterialRef>,
     /// `ReverseOrientation` was given an odd number of times.
     pub(super) reverse: bool,
+    /// Light that the next shapes send out.
+    pub(super) area_light: Option<Arc<Node>>,
     /// From `Attribute`.
     pub(super) inherited: Inherited,
 }
@@ -78,6 +80,7 @@ impl State {
             active: Active::All,
             material: None,
             reverse: false,
+            area_light: None,
             inherited: Inherited::default(),
         }
     }

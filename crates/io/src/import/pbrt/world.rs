@@ -41,6 +41,7 @@ pub(super) struct PlacedShape {
     pub(super) placement: Placement,
     pub(super) material: Option<MaterialRef>,
     pub(super) reverse: bool,
+    pub(super) area_light: Option<Arc<Node>>,
 }
 
 impl PlacedShape {
@@ -55,6 +56,7 @@ impl PlacedShape {
             world_from_object: motion,
             material: self.material,
             reverse_orientation: self.reverse,
+            area_light: self.area_light,
         })
     }
 }

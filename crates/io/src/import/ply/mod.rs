@@ -225,6 +225,7 @@ fn place(mesh: Mesh, texture: Option<String>, complaints: &mut Vec<Complaint>, i
         world_from_object: Motion::still(DAffine3::IDENTITY),
         material,
         reverse_orientation: false,
+        area_light: None,
     });
     debug_assert!(complaints.iter().all(|c| c.severity != Severity::Error));
 }

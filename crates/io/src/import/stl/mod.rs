@@ -89,6 +89,7 @@ fn place(solid: &Solid, imported: &mut Imported) {
         world_from_object: Motion::still(DAffine3::IDENTITY),
         material: None,
         reverse_orientation: false,
+        area_light: None,
     });
 }
 

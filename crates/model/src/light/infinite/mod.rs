@@ -16,7 +16,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{blur::Blur, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, scaled};
+use super::{Light, Track, scaled};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -129,9 +129,9 @@ impl Infinite {
 }
 
 impl Light for Infinite {
-    fn place(&mut self, render_from_light: &Transform) {
+    fn place(&mut self, track: &Track) {
         if let Some(picture) = &mut self.picture {
-            picture.render_from_light = *render_from_light;
+            picture.render_from_light = Transform::from_f64(&track.at(f32::NEG_INFINITY));
         }
     }
     fn surrounds(&self) -> bool {

@@ -13,7 +13,7 @@ use durer_core::{
     math::{Bounds3, Frame, Normal3, Point2, Point3, Ray, Vector3, error::gamma},
 };
 
-use super::super::{Shape, ShapeHit, accept};
+use super::super::{AreaPoint, Outline, Shape, ShapeHit, accept, flat};
 use crate::Surface;
 
 /// A patch over `(u, v)` in the unit square. The outside is towards `dP/du x dP/dv`.
@@ -148,6 +148,14 @@ impl Patch {
     }
 }
 
+impl Patch {
+    /// Whether shading normals, weighted for a point, say that the outside is away from `n`.
+    fn turns(&self, n: DVec3, weights: [f64; 4]) -> bool {
+        let mean = |normals: &[Normal3; 4]| (0..4).map(|i| normals[i].to_f64() * weights[i]).sum::<DVec3>();
+        self.normals.as_ref().is_some_and(|normals| mean(normals).dot(n) < 0.0)
+    }
+}
+
 impl Shape for Patch {
     fn bounds(&self) -> Bounds3 {
         Bounds3::around(self.p.iter().map(|p| Point3::from_f64(*p)))
@@ -205,6 +213,35 @@ impl Shape for Patch {
             dpdv,
             vertex_color: [1.0; 4],
         }
+    }
+
+    fn outline(&self) -> Outline {
+        let [p00, p10, p01, p11] = self.p;
+        let Some((corner, [e, f])) = flat::parallelogram([p00, p10, p11, p01]) else {
+            return Outline::Curved;
+        };
+        let turns = self.turns(self.normal(0.5, 0.5), [0.25; 4]);
+        Outline::Parallelogram(corner, if turns { [f, e] } else { [e, f] })
+    }
+
+    fn by_area(&self, u: Point2) -> Option<AreaPoint> {
+        let (u, v) = (f64::from(u.x), f64::from(u.y));
+        let (dpdu, dpdv) = self.partials(u, v);
+        let (n, element) = (self.normal(u, v), dpdu.cross(dpdv).length());
+        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+        let n = if self.turns(n, weights) { -n } else { n };
+        (element > 0.0).then(|| AreaPoint { p: self.at(u, v), n, density: 1.0 / element })
+    }
+
+    /// Where the ray meets the patch nearest to `p`, `u` and `v` are uniform.
+    fn area_density(&self, from: DVec3, p: DVec3) -> f64 {
+        let (o, d) = (Point3::from_f64(from), Vector3::from_f64(p - from));
+        let meetings = self.meetings(&Ray::new(o, d)).into_iter().flatten();
+        let nearest = meetings.min_by(|a, b| (a.t - 1.0).abs().total_cmp(&(b.t - 1.0).abs()));
+        nearest.map_or(0.0, |Meeting { u, v, .. }| {
+            let (dpdu, dpdv) = self.partials(u, v);
+            1.0 / dpdu.cross(dpdv).length()
+        })
     }
 
     /// By Gauss' three-point rule in 8 x 8 cells.

@@ -16,7 +16,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 pub use inside::{FillRule, crossing_number, winding_number};
 
-use super::{Geometry, Shape, ShapeHit, plane::Carrier};
+use super::{Geometry, Outline, Shape, ShapeHit, flat, plane::Carrier};
 use crate::Surface;
 
 /// A planar polygon; the outside is where the first loop is seen counter-clockwise. `uv` is the position in the bounding
@@ -130,6 +130,22 @@ impl Shape for Polygon {
     fn area(&self) -> f32 {
         let flat = self.edges().map(|e| e.map(|p| self.carrier.coordinates(p))).collect();
         area::filled_area(flat, self.fill_rule) as f32
+    }
+    fn outline(&self) -> Outline {
+        if let [one] = self.loops.as_slice()
+            && let Ok(corners) = <[DVec3; 4]>::try_from(one.as_slice())
+            && let Some((corner, edges)) = flat::parallelogram(corners)
+        {
+            return Outline::Parallelogram(corner, edges);
+        }
+        let Carrier { origin, n, u, v } = self.carrier;
+        let on_plane = |[x, y]: [f64; 2]| origin + u * x + v * y;
+        let flat = self.edges().map(|e| e.map(|p| self.carrier.coordinates(p))).collect();
+        // The axes of the plane may make a left-handed frame with the normal.
+        let turns = u.cross(v).dot(n) < 0.0;
+        let seen = |[a, b, c]: [[f64; 2]; 3]| if turns { [a, c, b] } else { [a, b, c] };
+        let triangles = area::triangles(flat, self.fill_rule);
+        Outline::Triangles(triangles.into_iter().map(|t| seen(t).map(on_plane)).collect())
     }
 }
 

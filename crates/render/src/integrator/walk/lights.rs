@@ -1,5 +1,6 @@
 //! Direct light: one shadow ray for each light.
-use durer_core::spectrum::Spectrum;
+use durer_core::{sampling::Sampler, spectrum::Spectrum};
+use durer_model::bsdf::Seen;
 
 use super::{super::shading::Shading, Walk};
 use crate::{PathRay, probe::Probe};
@@ -20,10 +21,51 @@ impl<P: Probe> Walk<'_, P> {
         let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
         for light in lamps.iter().map(|&light| light as usize) {
             let sampler = ray.sampler.fork(LIGHT_BRANCH + light as u32);
-            if let Some((weight, sample)) = s.light(cx, light, &sampler) {
+            for part in 0..self.rules.shadow_rays.max(1) {
+                let Some((weight, sample)) = s.light(cx, light, &self.part(sampler, part), |pdf| self.seen(pdf))
+                else {
+                    continue;
+                };
+                if sample.pdf.is_none() {
+                    // There is but one way to a light without extent.
+                    radiance += weight * self.shadow(ray, s, light, weight, &sample, id);
+                    break;
+                }
+                let weight = weight / self.rules.shadow_rays.max(1) as f32;
                 radiance += weight * self.shadow(ray, s, light, weight, &sample, id);
             }
         }
         radiance
+    }
+
+    /// The numbers of one of the shadow rays to a light.
+    fn part(&self, sampler: Sampler, part: u32) -> Sampler {
+        match self.rules.shadow_rays {
+            0 => Sampler::middle(),
+            rays => sampler.split(part, rays),
+        }
+    }
+
+    /// How rays that follow a hit will meet a light that is sampled with the density `pdf`.
+    fn seen(&self, pdf: f32) -> Seen {
+        match self.rules.gloss_rays {
+            None => Seen::Branches,
+            Some(rays) => Seen::Draws { pdf: self.light_density(pdf), rays: rays.get() as f32 },
+        }
+    }
+
+    /// Density of all shadow rays to a light together; 0 if they all go to its middle and leave no other to be found.
+    fn light_density(&self, pdf: f32) -> f32 {
+        pdf * self.rules.shadow_rays as f32
+    }
+
+    /// What a light that was hit sends along the ray, by the share that sampling the light leaves to the ray.
+    pub(super) fn lamp(&self, ray: &PathRay, s: &Shading) -> Spectrum {
+        let Some(lamp) = &s.lamp else { return Spectrum::BLACK };
+        let share = ray.draw.map_or(1.0, |draw| {
+            let sampled = self.light_density(s.lamp_pdf(self.cx, lamp, draw.from));
+            draw.density / (draw.density + sampled)
+        });
+        lamp.radiance * share
     }
 }

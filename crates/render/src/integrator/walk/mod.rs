@@ -83,7 +83,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         let cx = self.cx;
         let s = Shading::at(cx, &ray.ray, hit);
         self.probe.surface(id, s.object, hit, &s.surface);
-        let mut radiance = s.emission + s.ambient(cx);
+        let mut radiance = s.emission + self.lamp(ray, &s) + s.ambient(cx);
         if self.rules.gloss_rays.is_none() {
             radiance += s.blurred_sky(cx);
         }
