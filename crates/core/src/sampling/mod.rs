@@ -4,6 +4,7 @@ mod dimension;
 mod hash;
 mod sampler;
 mod sobol;
+mod strata;
 
 pub use dimension::Dim;
 pub use sampler::{Sampler, SamplerKind};
