@@ -7,6 +7,7 @@ use durer_core::{
 };
 use durer_model::{
     camera::{CAMERAS, Camera},
+    filter::{FILTERS, Filter},
     light::{self, LIGHTS, Light},
     material::{self, MATERIALS, Material},
     shape::{self, Geometry, SHAPES},
@@ -132,6 +133,14 @@ impl Builder<'_> {
 
     pub(super) fn camera(&mut self, node: &Node) -> Option<Box<dyn Camera>> {
         self.build(CAMERAS, "camera", node, &self.desc.textures)
+    }
+
+    /// The filter of the description, or the usual one.
+    pub(super) fn filter(&mut self) -> Option<Filter> {
+        match &self.desc.filter {
+            Some(node) => self.build(FILTERS, "filter", node, &[]),
+            None => Some(Filter::usual()),
+        }
     }
 
     /// The lights with their names, placed in render space, which is the world moved by `to_render`, as they are when
