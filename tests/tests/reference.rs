@@ -5,6 +5,7 @@ use durer::{
     integrator::INTEGRATORS,
     model::{
         camera::CAMERAS,
+        filter::FILTERS,
         light::LIGHTS,
         material::MATERIALS,
         shape::SHAPES,
@@ -59,6 +60,7 @@ fn page() -> String {
         ("Texture (float)", schemas(FLOAT_TEXTURES)),
         ("LightSource", schemas(LIGHTS)),
         ("Camera", schemas(CAMERAS)),
+        ("PixelFilter", schemas(FILTERS)),
         ("Integrator", schemas(INTEGRATORS)),
     ];
     for (directive, schemas) in families {
@@ -102,6 +104,7 @@ fn no_two_kinds_of_a_family_answer_to_the_same_word() {
         schemas(FLOAT_TEXTURES),
         schemas(LIGHTS),
         schemas(CAMERAS),
+        schemas(FILTERS),
     ] {
         let mut words: Vec<_> = family.iter().flat_map(|s| s.aliases.iter().chain([&s.name])).collect();
         let all = words.len();

@@ -148,7 +148,7 @@ fn a_hole_hides_nothing_that_lies_in_the_same_plane() {
 
 #[test]
 fn the_cameras_shutter_is_used_if_something_moves_and_options_win() {
-    let of = |options: Options| scene(ZOO, &small(options)).settings.shutter;
+    let of = |options: Options| scene(ZOO, &small(options)).scene.view.shutter.interval();
     let interval = |min, max| durer::math::Interval::new(min, max);
     assert_eq!(of(Options::default()), interval(0.2, 0.8));
     assert_eq!(
@@ -156,7 +156,7 @@ fn the_cameras_shutter_is_used_if_something_moves_and_options_win() {
         interval(1.0, 1.5)
     );
     let still = ZOO.replace("ActiveTransform EndTime", "ActiveTransform All");
-    assert_eq!(scene(&still, &small(Options::default())).settings.shutter, interval(0.0, 0.0));
+    assert_eq!(scene(&still, &small(Options::default())).scene.view.shutter.interval(), interval(0.0, 0.0));
 }
 
 #[test]

@@ -10,6 +10,7 @@ use clap::{
 use durer::{
     Options, Show,
     accel::{Engine, Preset},
+    compile::{Aperture, Focus, LensOptions},
     film::Tile,
     integrator::INTEGRATORS,
     math::Interval,
@@ -18,7 +19,7 @@ use durer::{
 
 use distribution::DistributionOptions;
 
-use crate::value::{crop, finite, fraction, positive, shutter, whole};
+use crate::value::{crop, film_point, finite, fraction, not_negative, positive, shutter, whole};
 
 /// How hits are found: what a word of `--accel` stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +79,18 @@ pub(crate) struct SceneOptions {
     /// Shutter opening and closing, in seconds after --time-at [default: an instant].
     #[arg(long, value_name = "OPEN,CLOSE", value_parser = shutter, allow_hyphen_values = true)]
     shutter: Option<Interval>,
+    /// Radius of the lens in metres; 0 has everything in focus [default: the camera's].
+    #[arg(long, value_name = "RADIUS_M", value_parser = not_negative, conflicts_with = "fnumber")]
+    aperture: Option<f32>,
+    /// Width of the lens as focal length by diameter [default: the camera's].
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
+    fnumber: Option<f32>,
+    /// Depth of the plane in focus, in metres [default: the camera's].
+    #[arg(long, value_name = "DISTANCE_M", value_parser = positive, conflicts_with = "focus_pixel")]
+    focus: Option<f32>,
+    /// Focus on what is seen there, in pixels from the upper left corner.
+    #[arg(long, value_name = "X,Y", value_parser = film_point)]
+    focus_pixel: Option<[f32; 2]>,
     /// A missing or damaged texture or mesh is an error, except of OBJ and PLY files, where it is a warning. With this it
     /// is a warning everywhere, and a visible placeholder is drawn in place of a texture.
     #[arg(long)]
@@ -162,8 +175,20 @@ impl SceneOptions {
             environment: self.env.clone(),
             time: self.time_at.unwrap_or(0.0),
             shutter: self.shutter,
+            lens: self.lens(),
             missing: if self.lenient { Missing::Warn } else { Missing::Refuse },
             ..Options::default()
+        }
+    }
+}
+
+impl SceneOptions {
+    fn lens(&self) -> LensOptions {
+        let radius = self.aperture.map(Aperture::Radius);
+        let distance = self.focus.map(Focus::Distance);
+        LensOptions {
+            aperture: radius.or(self.fnumber.map(Aperture::FNumber)),
+            focus: distance.or(self.focus_pixel.map(Focus::Pixel)),
         }
     }
 }
@@ -195,7 +220,18 @@ impl SampleOptions {
     /// The words after `durer trace` that replay a sample of a render with these options. Names every field, so that a
     /// new option cannot be forgotten here.
     pub(crate) fn replay(&self, pixel: [u32; 2], sample: u32) -> String {
-        let SceneOptions { scene, camera, env, time_at, shutter, lenient } = &self.scene;
+        let SceneOptions {
+            scene,
+            camera,
+            env,
+            time_at,
+            shutter,
+            aperture,
+            fnumber,
+            focus,
+            focus_pixel,
+            lenient,
+        } = &self.scene;
         // A crop changes no sample.
         let FilmOptions { width, height, scale, spp, crop: _, seed } = &self.film;
         let TransportOptions { integrator, show, max_depth, min_contribution, accel } = &self.transport;
@@ -207,6 +243,10 @@ impl SampleOptions {
         say("env", env.as_ref().map(|f| f.display().to_string()));
         say("time-at", time_at.map(|v| v.to_string()));
         say("shutter", shutter.map(|s| format!("{},{}", s.min, s.max)));
+        say("aperture", aperture.map(|v| v.to_string()));
+        say("fnumber", fnumber.map(|v| v.to_string()));
+        say("focus", focus.map(|v| v.to_string()));
+        say("focus-pixel", focus_pixel.map(|[x, y]| format!("{x},{y}")));
         say("width", width.map(|v| v.to_string()));
         say("height", height.map(|v| v.to_string()));
         say("scale", scale.map(|v| v.to_string()));

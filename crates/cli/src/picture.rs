@@ -118,9 +118,10 @@ fn channel_names(output: Output) -> &'static [&'static str] {
     }
 }
 
-/// Rows of the matrix that takes column vectors from the camera to the world. The camera looks along +z, y up.
+/// Rows of the matrix that takes column vectors from the camera to the world when the shutter opens. The camera looks along +z, y up.
 fn world_from_camera(view: &View) -> [f32; 16] {
-    let [x, y, z] = view.render_from_camera.rows();
+    let placed = view.render_from_camera(view.shutter.interval().min);
+    let [x, y, z] = placed.rows();
     let to_world = view.world_from_render.to_array();
     let row = |row: &[f32; 4], shift: f64| [row[0], row[1], row[2], (f64::from(row[3]) + shift) as f32];
     let [x, y, z] = [row(x, to_world[0]), row(y, to_world[1]), row(z, to_world[2])];

@@ -56,6 +56,18 @@ pub(crate) fn positive(text: &str) -> Result<f32, String> {
     finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
+/// A number of at least 0.
+pub(crate) fn not_negative(text: &str) -> Result<f32, String> {
+    finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "expected a number of at least 0".to_owned())
+}
+
+/// A point of the picture.
+pub(crate) fn film_point(text: &str) -> Result<[f32; 2], String> {
+    let form = "X,Y: two numbers of pixels, from 0,0 for the upper left corner";
+    let point: [f32; 2] = numbers(text, form)?;
+    if point.iter().all(|v| v.is_finite() && *v >= 0.0) { Ok(point) } else { Err(format!("expected {form}")) }
+}
+
 /// A number from 0 to 1.
 pub(crate) fn fraction(text: &str) -> Result<f32, String> {
     let inside = finite(text).ok().filter(|v| (0.0..=1.0).contains(v));

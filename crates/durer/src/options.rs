@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
 use durer_render::{
+    compile::LensOptions,
     film::Tile,
     integrator::{Sampling, Show},
 };
@@ -58,6 +59,8 @@ pub struct Options {
     pub time: f32,
     /// Shutter opening and closing, in seconds after `time`.
     pub shutter: Option<Interval>,
+    /// Aperture and focus.
+    pub lens: LensOptions,
     /// Hierarchy or brute force.
     pub engine: Engine,
     /// How much work goes into the hierarchy. It changes no bit of the picture.

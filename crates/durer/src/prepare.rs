@@ -2,6 +2,7 @@
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
+use durer_model::filter::Filter;
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
@@ -17,6 +18,8 @@ use crate::{Distribution, Options, environment};
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
 /// Samples per pixel if nobody asked for a number.
 const DEFAULT_SAMPLES: u32 = 64;
+/// Fewest samples per pixel that a filter with negative lobes copes with.
+const LEAST_WITH_LOBES: u32 = 16;
 /// Most pixels along an edge: pictures beyond are typing errors.
 const LARGEST_EDGE: u32 = 1 << 16;
 /// Most pixels of a picture: its sums take 4 GiB.
@@ -69,20 +72,21 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         camera: options.camera.clone(),
         time: options.time,
         shutter: options.shutter,
+        lens: options.lens,
         ..CompileOptions::new(width, height)
     };
     let scene = compile::compile(desc, &*assets, &compile_options, diagnostics);
-    let (scene, integrator) = (scene?, integrator?);
+    let (mut scene, integrator) = (scene?, integrator?);
     size?;
     check_content(desc, &scene, options.nothing, diagnostics)?;
     let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
+    filter(desc, &mut scene, integrator.output(), eye.total, diagnostics);
     let settings = Settings {
         samples: eye.total,
-        nesting: Nesting { time: eye.time, lens: eye.lens },
         sampler: sampler(desc),
+        nesting: Nesting { time: eye.time, lens: eye.lens },
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),
-        shutter: scene.view.shutter,
         crop: options.crop,
     };
     Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
@@ -237,7 +241,27 @@ fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mu
 fn sampler(desc: &SceneDesc) -> SamplerKind {
     match desc.sampler.as_ref().map(|n| n.kind.as_str()) {
         Some("independent") => SamplerKind::Independent,
+        Some("stratified") if !is_jittered(desc) => SamplerKind::Regular,
+        Some("stratified") => SamplerKind::Stratified,
         _ => SamplerKind::Sobol,
+    }
+}
+
+/// What a stratified sampler says of it; it does unless told otherwise.
+fn is_jittered(desc: &SceneDesc) -> bool {
+    let jitter = desc.sampler.as_ref().and_then(|node| node.params.get("jitter"));
+    jitter.is_none_or(|param| param.data != Data::Bools(vec![false]))
+}
+
+/// Data pictures show their own pixels; and too few samples of either sign may cancel each other.
+fn filter(desc: &SceneDesc, scene: &mut Scene, output: Output, samples: u32, diagnostics: &mut Diagnostics) {
+    let named = desc.filter.as_ref();
+    if let Output::Data(_) = output {
+        scene.view.filter = Filter::pixel();
+    } else if scene.view.filter.has_negative_lobes() && (2..LEAST_WITH_LOBES).contains(&samples) {
+        let message = format!("this filter has negative lobes: {samples} samples may cancel each other");
+        let at = named.map_or(Location::None, |node| node.at.clone());
+        diagnostics.warning(at, message).hint(format!("take {LEAST_WITH_LOBES} samples or more"));
     }
 }
 

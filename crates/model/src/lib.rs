@@ -1,4 +1,4 @@
-//! What a scene is made of: shapes, materials, lights, textures and cameras.
+//! What a scene is made of: shapes, materials, lights, textures, cameras and the filters of their pictures.
 //!
 //! Each folder holds a trait, a registry and one file per kind. A new kind is one new file and one line in the
 //! registry; parsing, checks, help, reference documentation and the conformance tests iterate over it.
@@ -6,6 +6,7 @@
 
 pub mod bsdf;
 pub mod camera;
+pub mod filter;
 pub mod light;
 pub mod material;
 pub mod shape;

@@ -1,7 +1,6 @@
 //! Cameras against closed forms.
 use durer_core::math::{Point2, Point3, Ray, Vector3};
-use durer_core::sampling::{Sampler, SamplerKind};
-use durer_model::camera::{CAMERAS, Camera};
+use durer_model::camera::{CAMERAS, Camera, Lens};
 use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType};
 
 fn build(kind: &str, params: Params, width: u32, height: u32) -> Result<(Box<dyn Camera>, String), String> {
@@ -22,7 +21,7 @@ fn camera(kind: &str, params: Params, width: u32, height: u32) -> Box<dyn Camera
 }
 
 fn through(camera: &dyn Camera, x: f32, y: f32) -> Ray {
-    camera.ray(Point2::new(x, y), 0.25, &Sampler::new(SamplerKind::Sobol, 0, [0, 0], 0, 1))
+    camera.ray(Point2::new(x, y), Lens::CENTRE, 0.25)
 }
 
 /// Slopes x / z and y / z of a ray.
@@ -106,7 +105,7 @@ fn windows_and_aspect_ratios_replace_the_defaults() {
 }
 
 #[test]
-fn what_makes_no_picture_is_refused_and_a_lens_is_warned_about() {
+fn what_makes_no_picture_is_refused() {
     let (ty, data) = four([1.0, 1.0, 0.0, 1.0]);
     for params in [
         Params::new().float("fov", 0.0),
@@ -118,7 +117,180 @@ fn what_makes_no_picture_is_refused_and_a_lens_is_warned_about() {
     ] {
         assert!(build("perspective", params.clone(), 8, 8).is_err(), "{params:?}");
     }
-    let lens = Params::new().float("lensradius", 0.1).float("focaldistance", 3.0);
-    let (_, said) = build("perspective", lens, 8, 8).expect("a camera");
-    assert!(said.contains("depth of field is not supported yet"), "{said}");
+}
+
+/// Where the film (from the left, in pictures' widths) sees the point `(0, 0, z)` through the lens point of number `u`:
+/// rays shift evenly with the film.
+fn seen(camera: &dyn Camera, z: f64, u: Point2) -> f64 {
+    let x = |film: f32| {
+        let ray = camera.ray(Point2::new(film, 0.5), u, 0.0);
+        let slope = f64::from(ray.d.x) / f64::from(ray.d.z);
+        // At infinity the direction alone counts.
+        if z.is_infinite() { slope } else { f64::from(ray.o.x) + slope * z }
+    };
+    let (left, right) = (x(0.0), x(1.0));
+    -left / (right - left)
+}
+
+/// Diameter in mm of the image of the point `(0, 0, z)` on the film behind a lens of 50 mm that is focused at `focus`.
+fn circle_of_confusion(n: f32, focus: f32, z: f64) -> f64 {
+    // 20 degrees wide at the distance where the film is.
+    let params = Params::new().float("fov", 20.0).float("fnumber", n).float("focallength", 50.0);
+    let camera = camera("perspective", params.float("focaldistance", focus), 100, 100);
+    // The lens's rim, left and right.
+    let across = |y| seen(camera.as_ref(), z, Point2::new(y, 0.5));
+    let widths = (across(0.0) - across(1.0)).abs();
+    let film_mm = 50.0 * f64::from(focus) / (f64::from(focus) - 0.05);
+    widths * 2.0 * 10f64.to_radians().tan() * film_mm
+}
+
+#[test]
+fn circles_of_confusion_have_the_diameters_of_f3() {
+    for (z, expected) in [(1.0, 0.641_026), (4.0, 0.320_513), (f64::INFINITY, 0.641_026), (2.0, 0.0)] {
+        let found = circle_of_confusion(2.0, 2.0, z);
+        assert!((found - expected).abs() < 2e-5, "{z} m: {found} mm, expected {expected}");
+    }
+}
+
+#[test]
+fn from_half_the_hyperfocal_distance_everything_is_sharp_f5() {
+    let (f, n, c) = (50.0, 2.0, 0.03);
+    let hyperfocal: f64 = (f * f / (n * c) + f) * 1e-3;
+    assert!((hyperfocal - 41.7167).abs() < 1e-4);
+    let blur = |z: f64| circle_of_confusion(2.0, 41.7167, z);
+    let nearest = hyperfocal * 0.5;
+    for z in [f64::INFINITY, nearest] {
+        assert!((blur(z) - c).abs() < 2e-4, "{z}: {}", blur(z));
+    }
+    for z in [nearest * 1.01, 30.0, 60.0, 1000.0] {
+        assert!(blur(z) < c, "{z}: {}", blur(z));
+    }
+    assert!(blur(nearest * 0.97) > c);
+}
+
+fn lens(params: Params) -> Lens {
+    camera("perspective", params.float("lensradius", 0.5), 1, 1).lens().clone()
+}
+
+/// Points of the lens for `n x n` cells.
+fn aperture(lens: &Lens, n: u32) -> impl Iterator<Item = [f64; 2]> {
+    let at = move |i: u32| (i as f32 + 0.5) / n as f32;
+    (0..n * n).map(move |i| lens.at(Point2::new(at(i % n), at(i / n))).map(f64::from))
+}
+
+#[test]
+fn round_lenses_are_evenly_covered() {
+    let (n, lens) = (256, lens(Params::new()));
+    let of = |weigh: fn(f64) -> f64| {
+        aperture(&lens, n).map(|[x, y]| weigh(x.hypot(y))).sum::<f64>() / f64::from(n * n)
+    };
+    // The RMS radius is r / sqrt 2, the mean radius 2 r / 3, and a quarter lies within half the radius.
+    assert!((of(|r| r * r).sqrt() - 0.5 / 2f64.sqrt()).abs() < 1e-4);
+    assert!((of(|r| r) - 1.0 / 3.0).abs() < 1e-4);
+    assert!((of(|r| f64::from(u8::from(r < 0.25))) - 0.25).abs() < 2e-3);
+    assert!(aperture(&lens, n).all(|[x, y]| x.hypot(y) <= 0.5));
+    assert_eq!(lens.at(Lens::CENTRE), [0.0; 2]);
+}
+
+#[test]
+fn blades_make_polygons_that_are_evenly_covered() {
+    for blades in [3, 5, 6, 8] {
+        let lens = lens(Params::new().int("blades", blades).float("bladerotation", 10.0));
+        let top = (90f64 + 10.0).to_radians();
+        let step = std::f64::consts::TAU / f64::from(blades);
+        // Inside of every side; each side is the same distance from the centre.
+        let inner = 0.5 * (step / 2.0).cos();
+        let normal = |k: i32| top + step * (f64::from(k) + 0.5);
+        let beyond = |[x, y]: [f64; 2]| {
+            (0..blades).map(|k| x * normal(k).cos() + y * normal(k).sin() - inner).fold(f64::MIN, f64::max)
+        };
+        let n = 240;
+        assert!(aperture(&lens, n).all(|p| beyond(p) < 1e-6), "{blades}");
+        // As many in each cell of a grid as its share of the polygon's area, for the cells wholly inside.
+        let area = 0.5 * 0.25 * f64::from(blades) * step.sin();
+        let (cell, mut counts) = (0.1, std::collections::HashMap::new());
+        for [x, y] in aperture(&lens, n) {
+            *counts.entry(((x / cell).floor() as i32, (y / cell).floor() as i32)).or_insert(0u32) += 1;
+        }
+        let mut whole = 0;
+        for (&(i, j), &count) in &counts {
+            let corner = |a: i32, b: i32| [f64::from(i + a) * cell, f64::from(j + b) * cell];
+            if [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|&(a, b)| beyond(corner(a, b)) < 0.0) {
+                whole += 1;
+                let expected = cell * cell / area * f64::from(n * n);
+                let off = (f64::from(count) / expected - 1.0).abs();
+                assert!(off < 0.05, "{blades} blades, cell {i},{j}: {count}, expected {expected}");
+            }
+        }
+        assert!(whole >= 8, "{blades}: {whole}");
+    }
+}
+
+#[test]
+fn rays_of_a_lens_meet_in_the_plane_in_focus_f4() {
+    for kind in ["perspective", "orthographic"] {
+        let params = Params::new().float("lensradius", 0.3).float("focaldistance", 4.0).int("blades", 6);
+        let camera = camera(kind, params, 30, 20);
+        for (x, y) in [(0.5, 0.5), (0.1, 0.9), (1.0, 0.0)] {
+            let film = Point2::new(x, y);
+            let at = |u: Point2, z: f32| {
+                let ray = camera.ray(film, u, 0.0);
+                assert!((ray.d.length() - 1.0).abs() < 1e-6);
+                ray.at((z - ray.o.z) / ray.d.z)
+            };
+            let middle = |z| at(Lens::CENTRE, z);
+            for z in [1.0, 4.0, 10.0] {
+                let widest = (0..400)
+                    .map(|i| at(Point2::new((i % 20) as f32 / 19.0, (i / 20) as f32 / 19.0), z) - middle(z))
+                    .fold(0.0f32, |m, v| m.max(v.length()));
+                // Diameter A |z - z_f| / z_f at depth z: A |z - z_f| / z seen on the plane in focus.
+                let expected = 0.3 * (z - 4.0).abs() / 4.0;
+                assert!(
+                    (widest - expected).abs() < 2e-5 + 0.01 * expected,
+                    "{kind} {z}: {widest} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn f_numbers_stand_for_radii_and_contradictions_are_refused() {
+    let of = |params: Params| camera("perspective", params, 300, 200).lens().radius();
+    // 24 mm high at 40 degrees: f = 12 mm / tan 20 degrees.
+    let f = 12.0 / 20f64.to_radians().tan() * 1e-3;
+    let radius = of(Params::new().float("fov", 40.0).float("fnumber", 2.8));
+    assert!((f64::from(radius) - f / 5.6).abs() < 1e-8, "{radius}");
+    assert_eq!(of(Params::new().float("fnumber", 2.0).float("focallength", 50.0)), 0.0125);
+    for (kind, params) in [
+        ("perspective", Params::new().float("fnumber", 2.0).float("lensradius", 0.1)),
+        ("perspective", Params::new().float("fnumber", 0.0)),
+        ("perspective", Params::new().float("focaldistance", 0.0)),
+        ("perspective", Params::new().int("blades", 2)),
+        ("perspective", Params::new().with("shuttercurve", ValueType::Float, Data::Floats(vec![1.0]))),
+        ("perspective", Params::new().with("shuttercurve", ValueType::Float, Data::Floats(vec![0.0; 3]))),
+        ("orthographic", Params::new().float("fnumber", 2.0)),
+    ] {
+        assert!(build(kind, params.clone(), 8, 8).is_err(), "{params:?}");
+    }
+}
+
+#[test]
+fn moments_follow_the_shutter_curve_and_rows() {
+    let params =
+        Params::new().float("shutteropen", 2.0).float("shutterclose", 4.0).float("rollingshutter", 0.5);
+    let tent = params.clone().with("shuttercurve", ValueType::Float, Data::Floats(vec![0.0, 1.0, 0.0]));
+    let of = |params: Params| camera("perspective", params, 1, 1).shutter().clone();
+    let (even, tent) = (of(params), of(tent));
+    assert_eq!(even.moment(0.25, 0, 10), 2.5 + 0.025);
+    assert_eq!(even.moment(1.0, 9, 10), 4.0 + 0.475);
+    // The integral of the tent up to t in [0, 1] from opening is t^2 / 2 of 1.
+    for u in [0.02f32, 0.125, 0.3, 0.5] {
+        let expected = 2.0 + (2.0 * u).sqrt();
+        assert!((tent.moment(u, 0, 10) - 0.025 - expected).abs() < 1e-5, "{u}");
+        assert!((tent.moment(1.0 - u, 0, 10) - 0.025 - (6.0 - expected)).abs() < 1e-5, "{u}");
+    }
+    assert!(!even.is_instant() && !even.sees_one_moment());
+    let row = even.during(durer_core::math::Interval::point(1.0));
+    assert!(row.is_instant() && !row.sees_one_moment() && row.moment(0.5, 4, 10) == 1.0 + 0.225);
 }

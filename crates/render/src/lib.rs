@@ -11,6 +11,8 @@ pub mod integrator;
 pub mod probe;
 mod sample;
 mod scene;
+mod view;
 
 pub use sample::{Contribution, Draw, PathRay, SampleCx, Value};
-pub use scene::{Object, Scene, View};
+pub use scene::{Object, Scene};
+pub use view::{CameraPlacement, View};

@@ -4,13 +4,11 @@ use std::sync::Arc;
 use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
-    math::{Interval, Point2, Point3, Ray, Transform, Vector3},
-    sampling::Sampler,
+    math::{Ray, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
     Surface,
-    camera::Camera,
     light::Light,
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
@@ -18,7 +16,7 @@ use durer_model::{
 };
 use durer_scene::Mesh;
 
-use crate::{SampleCx, probe::Probe};
+use crate::{SampleCx, View, probe::Probe};
 
 /// A thing with a name and a material: what a hit belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,45 +61,6 @@ pub(crate) struct PlacedShape {
     /// Identity for moving shapes: the kernel places them.
     pub(crate) render_from_object: Transform,
     pub(crate) object_from_render: Transform,
-}
-
-/// The camera in its place, and the picture it takes.
-#[derive(Debug)]
-pub struct View {
-    /// The camera.
-    pub camera: Box<dyn Camera>,
-    /// Its placement.
-    pub render_from_camera: Transform,
-    /// Render space is the world moved by this vector, so that the camera is at its origin (f64: the move is exact).
-    pub world_from_render: durer_core::glam::DVec3,
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// When the shutter is open, in seconds.
-    pub shutter: Interval,
-}
-
-impl View {
-    /// The ray through a point of the picture, in pixels from the upper left corner, in render space and of unit length.
-    pub fn ray(&self, film: Point2, time: f32, sampler: &Sampler) -> Ray {
-        let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
-        let ray = self.render_from_camera.ray(&self.camera.ray(film, time, sampler));
-        // PERF: a placement without scale keeps the length (bench render).
-        if (ray.d.length_squared() - 1.0).abs() <= 4.0 * f32::EPSILON {
-            ray
-        } else {
-            Ray { d: ray.d.normalize(), ..ray }
-        }
-    }
-    /// Cosine between unit direction `d` and the camera's axis: depth along the axis per ray length.
-    pub fn cos_to_axis(&self, d: Vector3) -> f32 {
-        self.render_from_camera.vector(Vector3::new(0.0, 0.0, 1.0)).normalize().dot(d)
-    }
-    /// A point of render space in world space.
-    pub fn to_world(&self, p: Point3) -> [f64; 3] {
-        (p.to_f64() + self.world_from_render).to_array()
-    }
 }
 
 /// A compiled scene.

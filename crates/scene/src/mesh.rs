@@ -33,6 +33,8 @@ pub struct VertexKey {
     pub time: f32,
     /// As many as the mesh has.
     pub positions: Vec<Point3>,
+    /// As many; between keys they change evenly. Empty if they are those of the first key.
+    pub normals: Vec<Normal3>,
 }
 
 /// Why arrays make no mesh.
@@ -96,6 +98,23 @@ impl Mesh {
         let (a, b) = (self.key(segment.key).1, self.key(segment.key + 1).1);
         vertices.map(|i| segment.point(of(a, i), of(b, i)))
     }
+    /// The normals of `vertices` at `time` seconds; `None` if the mesh has none. Not of unit length.
+    pub fn corner_normals(&self, vertices: [usize; 3], time: f32) -> Option<[Normal3; 3]> {
+        let of = |normals: &[Normal3]| {
+            let [p, q, r] = vertices.map(|i| normals.get(i).copied());
+            Some([p?, q?, r?])
+        };
+        if self.later.iter().all(|key| key.normals.is_empty()) {
+            return of(&self.normals);
+        }
+        let at = |key: usize| {
+            let own = key.checked_sub(1).and_then(|later| self.later.get(later)).map(|key| &key.normals);
+            of(own.filter(|normals| !normals.is_empty()).unwrap_or(&self.normals))
+        };
+        let Segment { key, u } = Segment::at(time, self.keys(), |key| self.key(key).0);
+        let ([a0, a1, a2], [b0, b1, b2]) = (at(key)?, at(key + 1)?);
+        Some([(a0, b0), (a1, b1), (a2, b2)].map(|(a, b)| a * (1.0 - u) + b * u))
+    }
     /// Checks array lengths, indices and positions.
     ///
     /// # Errors
@@ -115,9 +134,15 @@ impl Mesh {
             }
         }
         let mut before = self.time;
-        for (key, VertexKey { time, positions }) in (1..).zip(&self.later) {
+        for (key, VertexKey { time, positions, normals }) in (1..).zip(&self.later) {
             if positions.len() != vertices {
                 return Err(MeshError::Length { attribute: "vertex key", found: positions.len(), vertices });
+            }
+            // Where the first key has none there is nothing to change.
+            let wanted = self.normals.len();
+            if !normals.is_empty() && normals.len() != wanted {
+                let attribute = "normals of a vertex key";
+                return Err(MeshError::Length { attribute, found: normals.len(), vertices: wanted });
             }
             if !(before < *time && time.is_finite() && before.is_finite()) {
                 return Err(MeshError::Time { key });

@@ -51,7 +51,11 @@ fn facts(camera: &CameraDesc, time: f64, used: bool) -> CameraFacts<'_> {
 /// Where the camera of a compiled scene stands and looks, in world space.
 pub(super) fn view(prepared: &Prepared) -> ([f64; 3], [f64; 3]) {
     let view = &prepared.scene.view;
-    let ahead: DVec3 = view.render_from_camera.vector(Vector3::new(0.0, 0.0, 1.0)).normalize().to_f64();
+    let ahead: DVec3 = view
+        .render_from_camera(view.shutter.interval().min)
+        .vector(Vector3::new(0.0, 0.0, 1.0))
+        .normalize()
+        .to_f64();
     (view.world_from_render.to_array(), ahead.to_array())
 }
 

@@ -3,6 +3,7 @@
 //! Camera space has x to the right, y up and looks along +z (pbrt's left-handed camera space). A camera knows no film.
 //! A new camera is one file here and one line in [`CAMERAS`].
 
+mod lens;
 mod orthographic;
 mod perspective;
 mod screen;
@@ -10,23 +11,27 @@ mod shutter;
 
 use std::fmt::Debug;
 
-use durer_core::{
-    math::{Point2, Ray},
-    sampling::Sampler,
-};
+use durer_core::math::{Point2, Ray};
 use durer_scene::Entry;
 
+pub use lens::Lens;
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
+pub use shutter::Shutter;
 
 /// A camera.
 pub trait Camera: Debug + Send + Sync {
     /// Adapts the field of view to a picture of this many pixels; called once, before any ray is asked for.
     fn fit(&mut self, width: u32, height: u32);
     /// The ray through `film` (x right, y down, both in `[0, 1]` over the whole picture) in camera space, with a
-    /// direction of unit length. `sampler` picks a point of the aperture,
-    /// if there is one.
-    fn ray(&self, film: Point2, time: f32, sampler: &Sampler) -> Ray;
+    /// direction of unit length. It starts where [`Lens::at`] says for `lens`, at the centre for [`Lens::CENTRE`].
+    fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray;
+    /// What it looks through.
+    fn lens(&self) -> &Lens;
+    /// What it looks through, to be focused.
+    fn lens_mut(&mut self) -> &mut Lens;
+    /// What exposes its pictures.
+    fn shutter(&self) -> &Shutter;
 }
 
 /// All kinds of camera.

@@ -1,30 +1,41 @@
 //! Parallel projection: rays start on the plane z = 0 of camera space at the film position in the screen window and run
 //! along +z (Physically Based Rendering, 4th edition, section 5.2.1).
-use durer_core::{
-    math::{Point2, Point3, Ray, Vector3},
-    sampling::Sampler,
-};
+use durer_core::math::{Point2, Point3, Ray, Vector3};
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
-    Camera,
+    Camera, Lens, Shutter,
+    lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
-    shutter::{SHUTTER_CLOSE, SHUTTER_OPEN},
+    shutter::SHUTTER,
 };
 
 /// A camera infinitely far away.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Orthographic {
     screen: Screen,
+    lens: Lens,
+    shutter: Shutter,
 }
 
 impl Camera for Orthographic {
     fn fit(&mut self, width: u32, height: u32) {
         self.screen.fit(width, height);
+        // Only used without a focal length, which is refused.
+        self.lens.fit(1.0);
     }
-    fn ray(&self, film: Point2, time: f32, _sampler: &Sampler) -> Ray {
+    fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
         let p = self.screen.at(film);
-        Ray { time, ..Ray::new(Point3::new(p.x, p.y, 0.0), Vector3::new(0.0, 0.0, 1.0)) }
+        self.lens.ray(Point3::new(p.x, p.y, 0.0), Vector3::new(0.0, 0.0, 1.0), lens, time)
+    }
+    fn lens(&self) -> &Lens {
+        &self.lens
+    }
+    fn lens_mut(&mut self) -> &mut Lens {
+        &mut self.lens
+    }
+    fn shutter(&self) -> &Shutter {
+        &self.shutter
     }
 }
 
@@ -34,10 +45,31 @@ impl Kind for Orthographic {
         name: "orthographic",
         aliases: &[],
         doc: "Parallel projection along +z of camera space. Without screenwindow the shorter side of the picture is 2 m.",
-        params: &[SCREEN_WINDOW, ASPECT, SHUTTER_OPEN, SHUTTER_CLOSE],
+        params: &[
+            SCREEN_WINDOW,
+            ASPECT,
+            LENS[0],
+            LENS[1],
+            LENS[2],
+            LENS[3],
+            LENS[4],
+            LENS[5],
+            LENS[6],
+            SHUTTER[0],
+            SHUTTER[1],
+            SHUTTER[2],
+            SHUTTER[3],
+        ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let screen = Screen::read(args, UnitAxis::Shorter);
-        args.is_sound().then(|| Box::new(Self { screen }) as Box<dyn Camera>)
+        let (lens, shutter) = (Lens::read(args), Shutter::read(args));
+        if args.is_set("fnumber") && !args.is_set("focallength") {
+            args.error(
+                "fnumber",
+                "\"fnumber\" needs \"float focallength\": parallel rays have no field of view",
+            );
+        }
+        args.is_sound().then(|| Box::new(Self { screen, lens, shutter }) as Box<dyn Camera>)
     }
 }

@@ -1,36 +1,46 @@
-//! Pinhole camera.
+//! Central perspective through a thin lens, or a pinhole.
 //!
-//! Rays start at the origin and pass the image plane `z = 1` at `tan(fov / 2) (x, y)`, where `(x, y)` is the film
+//! Rays through the lens's centre start at the origin and pass the image plane `z = 1` at `tan(fov / 2) (x, y)`, where `(x, y)` is the film
 //! position in the screen window (Physically Based Rendering, 4th edition, section 5.2.2). For a point at depth `z` seen at
 //! angle `a` from the axis the ray is `z / cos a` long.
-use durer_core::{
-    math::{Point2, Point3, Ray, Vector3, float},
-    sampling::Sampler,
-};
+use durer_core::math::{Point2, Point3, Ray, Vector3, float};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    Camera,
+    Camera, Lens, Shutter,
+    lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
-    shutter::{SHUTTER_CLOSE, SHUTTER_OPEN},
+    shutter::SHUTTER,
 };
 
-/// A pinhole camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A camera that sees as an eye does.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Perspective {
     screen: Screen,
     /// `tan(fov / 2)`.
     half: f32,
+    lens: Lens,
+    shutter: Shutter,
 }
 
 impl Camera for Perspective {
     fn fit(&mut self, width: u32, height: u32) {
         self.screen.fit(width, height);
+        self.lens.fit(self.half * self.screen.half_height());
     }
-    fn ray(&self, film: Point2, time: f32, _sampler: &Sampler) -> Ray {
+    fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
         let p = self.screen.at(film);
         let d = Vector3::new(p.x * self.half, p.y * self.half, 1.0).normalize();
-        Ray { time, ..Ray::new(Point3::ZERO, d) }
+        self.lens.ray(Point3::ZERO, d, lens, time)
+    }
+    fn lens(&self) -> &Lens {
+        &self.lens
+    }
+    fn lens_mut(&mut self) -> &mut Lens {
+        &mut self.lens
+    }
+    fn shutter(&self) -> &Shutter {
+        &self.shutter
     }
 }
 
@@ -39,7 +49,7 @@ impl Kind for Perspective {
     const SCHEMA: Schema = Schema {
         name: "perspective",
         aliases: &[],
-        doc: "A pinhole camera at the origin of camera space, looking along +z.",
+        doc: "A camera at the origin of camera space, looking along +z.",
         params: &[
             ParamSpec::float("fov", 90.0, "Field of view, full angle; between 0 and 180.")
                 .unit("deg")
@@ -52,14 +62,17 @@ impl Kind for Perspective {
             ),
             SCREEN_WINDOW,
             ASPECT,
-            ParamSpec::float("lensradius", 0.0, "Radius of the lens; only 0 is supported.")
-                .unit("m")
-                .range(0.0, f32::INFINITY),
-            ParamSpec::float("focaldistance", 1e6, "Depth of the plane in focus; without effect.")
-                .unit("m")
-                .range(0.0, f32::INFINITY),
-            SHUTTER_OPEN,
-            SHUTTER_CLOSE,
+            LENS[0],
+            LENS[1],
+            LENS[2],
+            LENS[3],
+            LENS[4],
+            LENS[5],
+            LENS[6],
+            SHUTTER[0],
+            SHUTTER[1],
+            SHUTTER[2],
+            SHUTTER[3],
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -67,16 +80,14 @@ impl Kind for Perspective {
         if fov == 0.0 || fov == 180.0 {
             args.error("fov", format!("\"fov\" is {fov}, expected an angle between 0 and 180 deg"));
         }
-        if args.float("lensradius") > 0.0 {
-            args.warning("lensradius", "depth of field is not supported yet; everything will be in focus");
-        }
         let unit_axis = match args.text("fovaxis") {
             "x" => UnitAxis::X,
             "y" => UnitAxis::Y,
             _ => UnitAxis::Shorter,
         };
         let screen = Screen::read(args, unit_axis);
+        let (lens, shutter) = (Lens::read(args), Shutter::read(args));
         let half = float::tan(fov.to_radians() * 0.5);
-        args.is_sound().then(|| Box::new(Self { screen, half }) as Box<dyn Camera>)
+        args.is_sound().then(|| Box::new(Self { screen, half, lens, shutter }) as Box<dyn Camera>)
     }
 }

@@ -73,6 +73,10 @@ impl Screen {
         let (x, y) = if is_y_unit { (aspect, 1.0) } else { (1.0, 1.0 / aspect) };
         self.window = self.fixed.unwrap_or([-x, x, -y, y]);
     }
+    /// Half the height of the window.
+    pub(super) fn half_height(&self) -> f32 {
+        (self.window[3] - self.window[2]).abs() * 0.5
+    }
     /// The point of the image plane at a film position (x right, y down, in `[0, 1]`).
     pub(super) fn at(&self, film: Point2) -> Point2 {
         let [x_min, x_max, y_min, y_max] = self.window;

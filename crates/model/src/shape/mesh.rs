@@ -46,7 +46,8 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, [u, v]: [f32; 2], time: f32) -> Surf
     let p = Point3::from_f64(p0 * b0 + p1 * b1 + p2 * b2);
     let p_error = Vector3::from_f64((p0 * b0).abs() + (p1 * b1).abs() + (p2 * b2).abs()) * gamma(7);
 
-    let shading = weights.sum(&mesh.normals, Normal3::to_array).map(Normal3::from).and_then(unit);
+    let normals = mesh.corner_normals(vertices, time);
+    let shading = normals.map(|n| Normal3::from(weights.mean(n.map(Normal3::to_array)))).and_then(unit);
     let winding = unit(Normal3::from_f64((p1 - p0).cross(p2 - p0).normalize_or_zero()));
     let n_g = match (winding, shading) {
         (Some(n), Some(s)) => n.face_forward(s),

@@ -1,7 +1,7 @@
 //! The description of triangle meshes, still or with moving vertices.
 //!
 //! Vertices move on straight lines between keys: `P` is where they are at the first moment, `P1`, `P2`, ... at the later
-//! ones; our addition to pbrt's language.
+//! ones; our addition to pbrt's language. Shading normals likewise with `N`, `N1`, `N2`, ... where they are given.
 use std::sync::Arc;
 
 use durer_core::math::{Normal3, Point2, Point3};
@@ -33,6 +33,28 @@ const KEYS: [ParamSpec; 9] = [
     key("P9", NEXT),
 ];
 
+const fn normal_key(name: &'static str) -> ParamSpec {
+    ParamSpec::new(
+        name,
+        ParamType::Normals,
+        ParamDefault::Unset,
+        "The shading normals at that moment; default: N.",
+    )
+}
+
+/// The shading normals of the keys, in order.
+const NORMAL_KEYS: [ParamSpec; 9] = [
+    normal_key("N1"),
+    normal_key("N2"),
+    normal_key("N3"),
+    normal_key("N4"),
+    normal_key("N5"),
+    normal_key("N6"),
+    normal_key("N7"),
+    normal_key("N8"),
+    normal_key("N9"),
+];
+
 impl Kind for TriangleMesh {
     type Output = Geometry;
     const SCHEMA: Schema = Schema {
@@ -60,6 +82,15 @@ impl Kind for TriangleMesh {
             KEYS[6],
             KEYS[7],
             KEYS[8],
+            NORMAL_KEYS[0],
+            NORMAL_KEYS[1],
+            NORMAL_KEYS[2],
+            NORMAL_KEYS[3],
+            NORMAL_KEYS[4],
+            NORMAL_KEYS[5],
+            NORMAL_KEYS[6],
+            NORMAL_KEYS[7],
+            NORMAL_KEYS[8],
             ParamSpec::new(
                 "times",
                 ParamType::Floats,
@@ -105,6 +136,15 @@ impl Kind for TriangleMesh {
                 MeshError::Index { .. } => "indices",
                 MeshError::Length { attribute: "normals", .. } => "N",
                 MeshError::Length { attribute: "tangents", .. } => "S",
+                MeshError::Length { attribute: "normals of a vertex key", .. } => {
+                    let wrong =
+                        |k: &VertexKey| !k.normals.is_empty() && k.normals.len() != mesh.normals.len();
+                    mesh.later
+                        .iter()
+                        .position(wrong)
+                        .and_then(|key| NORMAL_KEYS.get(key))
+                        .map_or("N", |k| k.name)
+                }
                 MeshError::Length { attribute: "vertex key", .. } => {
                     mesh.later.iter().position(wrong).and_then(|key| KEYS.get(key)).map_or("P", |k| k.name)
                 }
@@ -139,7 +179,14 @@ fn keys(args: &mut Args<'_>) -> (f32, Vec<VertexKey>) {
         args.error("times", message);
         return (0.0, Vec::new());
     }
-    let moments = KEYS.iter().zip(times.iter().skip(1));
-    let later = moments.map(|(key, &time)| VertexKey { time, positions: points(args, key.name) }).collect();
+    if let Some(stray) = NORMAL_KEYS.iter().skip(given).find(|k| args.is_set(k.name)) {
+        args.error(stray.name, format!("\"{}\" is given, but there is no such key of P", stray.name));
+    }
+    let moments = KEYS.iter().zip(&NORMAL_KEYS).zip(times.iter().skip(1));
+    let key = |((key, normals), &time): ((&ParamSpec, &ParamSpec), &f32)| {
+        let normals = args.triples(normals.name).into_iter().map(Normal3::from).collect();
+        VertexKey { time, positions: points(args, key.name), normals }
+    };
+    let later = moments.map(key).collect();
     (times[0], later)
 }

@@ -1,7 +1,7 @@
 //! Surfaces of triangle meshes.
 use durer_core::math::{Normal3, Point2, Point3, Vector3};
 use durer_model::shape::{Geometry, mesh_surface};
-use durer_scene::{Data, Mesh, Params, ValueType};
+use durer_scene::{Data, Mesh, Params, ValueType, VertexKey};
 use durer_testkit::random::Random;
 
 use super::{build, points};
@@ -142,4 +142,30 @@ fn vertices_move_between_keys() {
     assert!(moments(&[1.0, 1.0]).contains("not later"));
     let (ty, data) = points(&[[0.0; 3]; 2]);
     assert!(wrong(keyed(&[("P", 0.0)]).with("P1", ty, data)).contains("vertex key has 2 entries for 3"));
+}
+
+#[test]
+fn vertex_normals_change_evenly_with_the_keys() {
+    let mesh = Mesh {
+        normals: vec![Normal3::new(0.0, 0.0, 1.0); 3],
+        time: 1.0,
+        later: vec![
+            VertexKey {
+                time: 3.0,
+                positions: triangle().positions,
+                normals: vec![Normal3::new(1.0, 0.0, 1.0); 3],
+            },
+            VertexKey { time: 4.0, positions: triangle().positions, normals: Vec::new() },
+        ],
+        ..triangle()
+    };
+    mesh.validate().expect("sound");
+    // Between the first keys x grows evenly to z; the last key has the normals of the first.
+    for (time, x) in [(0.0, 0.0), (1.0, 0.0), (1.5, 0.25), (2.0, 0.5), (3.0, 1.0), (3.5, 0.5), (9.0, 0.0)] {
+        let n = mesh_surface(&mesh, 0, [0.2, 0.3], time).n_s;
+        assert!((n.x / n.z - x).abs() < 1e-6 && (n.length() - 1.0).abs() < 1e-6, "{time}: {n:?}");
+    }
+    let short = VertexKey { normals: vec![Normal3::ZERO; 2], ..mesh.later[0].clone() };
+    assert!(Mesh { later: vec![short], ..mesh.clone() }.validate().is_err());
+    assert!(Mesh { normals: Vec::new(), ..mesh }.validate().is_err());
 }

@@ -5,6 +5,7 @@
 //! of pbrt); coordinates are rounded to f32 once. Scenes far from the origin stay watertight.
 
 mod automatic;
+mod camera;
 mod geometry;
 mod lights;
 mod nodes;
@@ -13,15 +14,13 @@ mod report;
 use std::time::{Duration, Instant};
 
 use durer_accel::BuildOptions;
-use durer_core::{
-    glam::{DAffine3, DVec3},
-    math::{Interval, Transform},
-};
+use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{light::Light, shape::Geometry};
-use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
+use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Scene, View, integrator::NOT_YET};
+use crate::{Scene, integrator::NOT_YET};
 
+pub use camera::{Aperture, Focus, LensOptions};
 pub use nodes::integrator;
 pub use report::{GeometryCounts, Report, Times};
 
@@ -42,6 +41,8 @@ pub struct CompileOptions {
     pub time: f32,
     /// Shutter opening and closing, in seconds after `time`; the camera's if `None`.
     pub shutter: Option<Interval>,
+    /// What replaces the camera's own lens.
+    pub lens: LensOptions,
 }
 
 impl CompileOptions {
@@ -55,6 +56,7 @@ impl CompileOptions {
             camera: None,
             time: 0.0,
             shutter: None,
+            lens: LensOptions::default(),
         }
     }
 }
@@ -72,23 +74,18 @@ pub fn compile(
     let (shapes, of_shapes) = timed(|| nodes.shapes());
     let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
-    let camera = chosen_camera(desc, options, nodes.diagnostics)
+    let camera = camera::chosen(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
+    let camera = options.lens.given_to(camera);
     let bends = |g: &Geometry| matches!(g, Geometry::Mesh(mesh) if !mesh.is_still());
     let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still())
         || desc.meshes.iter().any(|mesh| !mesh.is_still())
         || desc.lights.iter().any(|l| !l.world_from_light.is_still())
         || shapes.iter().flatten().any(bends);
-    let shutter = shutter(&camera, moves, options);
-    let opening = f64::from(shutter.min);
-    if shutter.min != shutter.max && !camera.world_from_camera.is_still() {
-        let message =
-            "moving cameras are not supported yet: it stands still where it is when the shutter opens";
-        nodes.diagnostics.warning(camera.node.at.clone(), message);
-    }
-    let world_from_camera = camera.world_from_camera.at(opening);
+    let view = camera::view(&mut nodes, &camera, options, moves);
+    let shutter = view.as_ref().map_or(Interval::point(options.time), |view| view.shutter.interval());
+    let world_from_camera = camera.world_from_camera.at(shutter.min.into());
     let origin = world_from_camera.translation;
-    let view = view(&mut nodes, &camera, &world_from_camera, options, shutter);
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
     let lights = nodes.lights(&lights, &shapes, &render_from_world, shutter);
@@ -112,7 +109,7 @@ pub fn compile(
     let lights::Lights { lights, names: light_names, .. } = lights;
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
-    Some(Scene {
+    let mut scene = Scene {
         report,
         objects: placed.objects,
         materials,
@@ -126,7 +123,9 @@ pub fn compile(
         targets: placed.targets,
         shapes: placed.shapes,
         movers: placed.movers,
-    })
+    };
+    camera::focus(&mut scene, camera.node.at, diagnostics)?;
+    Some(scene)
 }
 
 /// What `work` makes, and how long it takes.
@@ -134,63 +133,6 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = Instant::now();
     let made = work();
     (made, start.elapsed())
-}
-
-/// The camera the options name, else the first.
-fn chosen_camera(
-    desc: &SceneDesc,
-    options: &CompileOptions,
-    diagnostics: &mut Diagnostics,
-) -> Option<CameraDesc> {
-    let Some(wanted) = &options.camera else { return desc.cameras.first().cloned() };
-    let by_name = desc.cameras.iter().find(|c| &c.name == wanted);
-    let found = by_name.or_else(|| desc.cameras.get(wanted.parse::<usize>().ok()?));
-    if found.is_none() {
-        let names: Vec<String> = (0..desc.cameras.len())
-            .map(|i| i.to_string())
-            .chain(desc.cameras.iter().map(|c| c.name.clone()).filter(|n| !n.is_empty()))
-            .collect();
-        diagnostics.unknown(Location::None, "camera", wanted, names.iter().map(String::as_str));
-    }
-    found.cloned()
-}
-
-fn view(
-    nodes: &mut nodes::Builder<'_>,
-    desc: &CameraDesc,
-    world_from_camera: &DAffine3,
-    options: &CompileOptions,
-    shutter: Interval,
-) -> Option<View> {
-    let mut camera = nodes.camera(&desc.node)?;
-    camera.fit(options.width, options.height);
-    let rotation = DAffine3 { translation: DVec3::ZERO, ..*world_from_camera };
-    let render_from_camera = Transform::from_f64(&rotation);
-    if !render_from_camera.is_invertible() {
-        nodes.diagnostics.error(desc.node.at.clone(), "the camera's transform cannot be inverted");
-        return None;
-    }
-    Some(View {
-        camera,
-        render_from_camera,
-        world_from_render: world_from_camera.translation,
-        width: options.width,
-        height: options.height,
-        shutter,
-    })
-}
-
-/// When the shutter is open: as the options say, else as the camera says; a moment if nothing moves.
-fn shutter(camera: &CameraDesc, moves: bool, options: &CompileOptions) -> Interval {
-    let of_camera = |name: &str, default: f32| match camera.node.params.get(name).map(|p| &p.data) {
-        Some(Data::Floats(v)) => v.first().copied().unwrap_or(default),
-        _ => default,
-    };
-    let asked = options.shutter.unwrap_or_else(|| match moves {
-        true => Interval::new(of_camera("shutteropen", 0.0), of_camera("shutterclose", 1.0)),
-        false => Interval::point(0.0),
-    });
-    Interval::new(options.time + asked.min, options.time + asked.max)
 }
 
 /// The integrator of a description that asks for none.

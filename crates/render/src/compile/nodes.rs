@@ -3,6 +3,7 @@ use std::{collections::HashMap, sync::Arc};
 
 use durer_model::{
     camera::{CAMERAS, Camera},
+    filter::{FILTERS, Filter},
     material::{self, MATERIALS, Material},
     shape::{self, Geometry, SHAPES},
     texture::{self, Texture},
@@ -127,6 +128,14 @@ impl Builder<'_> {
 
     pub(super) fn camera(&mut self, node: &Node) -> Option<Box<dyn Camera>> {
         self.build(CAMERAS, "camera", node, &self.desc.textures)
+    }
+
+    /// The filter of the description, or the usual one.
+    pub(super) fn filter(&mut self) -> Option<Filter> {
+        match &self.desc.filter {
+            Some(node) => self.build(FILTERS, "filter", node, &[]),
+            None => Some(Filter::usual()),
+        }
     }
 }
 

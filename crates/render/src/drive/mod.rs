@@ -110,11 +110,12 @@ impl<'a> Job<'a> {
         SampleCx { scene: self.scene, basis: Basis::Rgb }
     }
 
-    /// The eye ray of a sample.
-    fn eye(&self, pixel: [u32; 2], sample: u32) -> PathRay {
+    /// The eye ray of a sample, and what the sample counts in the pixel.
+    fn eye(&self, pixel: [u32; 2], sample: u32) -> (PathRay, f32) {
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
-        PathRay::eye(pass::eye_ray(&self.scene.view, s, pixel, &sampler), sampler)
+        let (ray, weight) = pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler);
+        (PathRay::eye(ray, sampler), weight)
     }
 
     /// The ray tree of one sample, made by running it again, watched; and the linear RGB that the film stores of it.
@@ -122,7 +123,7 @@ impl<'a> Job<'a> {
         let mut tree = RayTree::default();
         let mut out = Contribution::default();
         let cx = self.cx();
-        self.integrator.record(&cx, self.eye(pixel, sample), &mut out, &mut tree);
+        self.integrator.record(&cx, self.eye(pixel, sample).0, &mut out, &mut tree);
         (tree, film_value(&cx, &out).unwrap_or([0.0; 3]))
     }
 
@@ -194,7 +195,7 @@ impl<'a> Job<'a> {
             }
             for (x, pixel) in (tile.x0..).zip(row) {
                 for sample in pass.samples.clone() {
-                    let ray = self.eye([x, y], sample);
+                    let (ray, weight) = self.eye([x, y], sample);
                     match &mut done.counters {
                         Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
                         None => self.integrator.sample(&cx, ray, &mut out),
@@ -202,7 +203,7 @@ impl<'a> Job<'a> {
                     done.samples += 1;
                     done.rays += out.rays;
                     match film_value(&cx, &out) {
-                        Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, 1.0),
+                        Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
                     }

@@ -53,7 +53,7 @@ impl Job<'_> {
                     break;
                 }
                 for sample in 0..self.settings.samples {
-                    self.integrator.count(&cx, self.eye(pixel, sample), &mut out, &mut own.counters);
+                    self.integrator.count(&cx, self.eye(pixel, sample).0, &mut out, &mut own.counters);
                     own.samples += 1;
                 }
                 own.pixels += 1;

@@ -3,8 +3,9 @@ use durer_core::{
     math::{Point2, Ray},
     sampling::{Dim, Sampler},
 };
+use durer_model::camera::Lens;
 
-use super::Settings;
+use super::Nesting;
 use crate::{View, film::BLOCK};
 
 /// The passes of a render: a first look after one sample, then four times as many each, then block by block. No pass
@@ -24,13 +25,23 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
     passes
 }
 
-/// The eye ray through a pixel: jittered by the sampler, spread by the filter, at a moment of the shutter interval.
-pub(super) fn eye_ray(view: &View, settings: &Settings, pixel: [u32; 2], sampler: &Sampler) -> Ray {
-    let jitter = sampler.d2(Dim::Pixel);
-    let film = Point2::new(pixel[0] as f32 + jitter.x, pixel[1] as f32 + jitter.y);
-    let shutter = settings.shutter;
-    let time = if shutter.min == shutter.max { shutter.min } else { shutter.at(sampler.d1(Dim::Time)) };
-    view.ray(film, time, sampler)
+/// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
+/// of the lens.
+pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Ray, f32) {
+    let place = view.filter.sample(sampler.shared_by(nesting.per_place()).d2(Dim::Pixel));
+    let film = [0, 1].map(|i| pixel[i] as f32 + 0.5 + place.offset[i]);
+    let u = match nesting.time {
+        0 => 0.5,
+        _ if view.shutter.is_instant() => 0.5,
+        _ => sampler.shared_by(nesting.lens).d1(Dim::Time),
+    };
+    let lens = match nesting.lens {
+        0 => Lens::CENTRE,
+        _ if !view.camera.lens().is_open() => Lens::CENTRE,
+        _ => sampler.d2(Dim::Lens),
+    };
+    let time = view.shutter.moment(u, pixel[1], view.height);
+    (view.ray(Point2::new(film[0], film[1]), lens, time), place.weight)
 }
 
 #[cfg(test)]

@@ -1,51 +1,58 @@
 //! How a picture is taken.
-use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_core::sampling::SamplerKind;
 
 use crate::film::Tile;
 
-/// How the samples of a pixel combine moments and points of the lens.
+/// Samples, seed, threads and crop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Samples per pixel.
+    pub samples: u32,
+    /// How sample indices become numbers.
+    pub sampler: SamplerKind,
+    /// How samples divide among the effects of the camera.
+    pub nesting: Nesting,
+    /// Changes every random number.
+    pub seed: u64,
+    /// Worker threads.
+    pub threads: usize,
+    /// The part of the picture that is rendered; the rest stays black.
+    pub crop: Option<Tile>,
+}
+
+/// How many samples share a place and a moment. Of the `A T L` samples of a pixel `T L` in sequence go through each of its
+/// `A` places, and `L` of these at each of the `T` moments; every sample has a point on the lens of its own. 0 stands for an
+/// effect that is left out: everything at half exposure, everything in focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Nesting {
-    /// Moments for each point of the pixel; 0: the middle of the shutter time always.
+    /// Moments for each place in the pixel.
     pub time: u32,
-    /// Points of the lens for each moment; 0: its centre always.
+    /// Points on the lens for each moment.
     pub lens: u32,
 }
 
 impl Default for Nesting {
+    /// Every sample has a place, a moment and a point on the lens of its own.
     fn default() -> Self {
         Self { time: 1, lens: 1 }
     }
 }
 
-/// Samples, seed, threads, shutter and crop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Samples per pixel.
-    pub samples: u32,
-    /// How the samples of a pixel combine moments and points of the lens.
-    pub nesting: Nesting,
-    /// How sample indices become numbers.
-    pub sampler: SamplerKind,
-    /// Changes every random number.
-    pub seed: u64,
-    /// Worker threads.
-    pub threads: usize,
-    /// Seconds from which each sample's moment is drawn.
-    pub shutter: Interval,
-    /// The part of the picture that is rendered; the rest stays black.
-    pub crop: Option<Tile>,
+impl Nesting {
+    /// The samples of each place in the pixel.
+    pub fn per_place(self) -> u32 {
+        self.time.max(1).saturating_mul(self.lens.max(1))
+    }
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Self {
             samples: 64,
-            nesting: Nesting::default(),
             sampler: SamplerKind::default(),
+            nesting: Nesting::default(),
             seed: 0,
             threads: 1,
-            shutter: Interval::point(0.0),
             crop: None,
         }
     }

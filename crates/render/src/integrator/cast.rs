@@ -110,7 +110,7 @@ impl Cast {
     fn hit(&self, cx: &SampleCx<'_>, ray: &PathRay, hit: &Hit, s: &Shading) -> Value {
         let data = |v: [f32; 3]| Value::Data(Some(v));
         match self.show {
-            Show::Depth => data([hit.t * cx.scene.view.cos_to_axis(ray.ray.d), hit.t, 0.0]),
+            Show::Depth => data([hit.t * cx.scene.view.cos_to_axis(ray.ray.d, ray.ray.time), hit.t, 0.0]),
             Show::Normal => data(s.surface.n_s.face_forward(s.wo).to_array()),
             Show::Uv => data([s.surface.uv.x, s.surface.uv.y, 0.0]),
             Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
@@ -119,7 +119,9 @@ impl Cast {
                 let mut radiance = s.sent_out() + s.ambient(cx) + s.blurred_sky(cx);
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
                 for light in lamps.iter().map(|&light| light as usize) {
-                    if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32), |_| Seen::Branches) {
+                    if let Some((weight, sample)) =
+                        s.light(cx, light, &ray.sampler.fork(light as u32), |_| Seen::Branches)
+                    {
                         radiance += weight * sample.weight;
                     }
                 }

@@ -70,7 +70,12 @@ pub(super) const STRATIFIED: Schema = Schema {
         int("xsamples", 4, 3e4, "samples in x"),
         int("ysamples", 4, 3e4, "samples in y"),
         SEED,
-        ParamSpec::new("jitter", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
+        ParamSpec::new(
+            "jitter",
+            ParamType::Bool,
+            ParamDefault::Bool(true),
+            "anywhere in each cell, not its middle",
+        ),
     ],
 };
 

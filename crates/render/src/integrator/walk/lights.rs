@@ -22,7 +22,8 @@ impl<P: Probe> Walk<'_, P> {
         for light in lamps.iter().map(|&light| light as usize) {
             let sampler = ray.sampler.fork(LIGHT_BRANCH + light as u32);
             for part in 0..self.rules.shadow_rays.max(1) {
-                let Some((weight, sample)) = s.light(cx, light, &self.part(sampler, part), |pdf| self.seen(pdf))
+                let Some((weight, sample)) =
+                    s.light(cx, light, &self.part(sampler, part), |pdf| self.seen(pdf))
                 else {
                     continue;
                 };
