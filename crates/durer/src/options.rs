@@ -3,7 +3,10 @@ use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
-use durer_render::{film::Tile, integrator::Show};
+use durer_render::{
+    film::Tile,
+    integrator::{Shadows, Show},
+};
 use durer_scene::Missing;
 
 /// Wishes; `None` leaves the choice to the scene, then to the defaults.
@@ -25,6 +28,8 @@ pub struct Options {
     pub max_depth: Option<u32>,
     /// Stop when a branch's share in the pixel is at or below this.
     pub min_contribution: Option<f32>,
+    /// What transparent things do to shadow rays.
+    pub shadows: Option<Shadows>,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.

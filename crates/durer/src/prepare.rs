@@ -149,6 +149,9 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
             diagnostics
                 .warning(Location::None, "cast follows no ray: depth and contribution limits change nothing");
         }
+        if options.shadows.is_some() {
+            diagnostics.warning(Location::None, "cast sends no shadow rays: --shadows changes nothing");
+        }
         return node;
     }
     if let Some(depth) = options.max_depth {
@@ -156,6 +159,9 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
     }
     if let Some(cut) = options.min_contribution {
         set("mincontribution", ValueType::Float, Data::Floats(vec![cut]));
+    }
+    if let Some(shadows) = options.shadows {
+        set("shadows", ValueType::String, Data::Strings(vec![shadows.word().to_owned()]));
     }
     if options.show.is_some() {
         let message = "what is shown of a hit concerns the integrator \"cast\" only";

@@ -8,6 +8,7 @@ pub mod bsdf;
 pub mod camera;
 pub mod light;
 pub mod material;
+mod medium;
 pub mod shape;
 mod surface;
 pub mod texture;
@@ -15,6 +16,7 @@ pub mod texture;
 use durer_core::spectrum::{Basis, Color};
 use durer_scene::{ColorInput, FloatInput};
 
+pub use medium::Medium;
 pub use surface::Surface;
 use texture::{Texture, TextureAt};
 

@@ -8,9 +8,11 @@ pub mod compile;
 pub mod drive;
 pub mod film;
 pub mod integrator;
+mod media;
 pub mod probe;
 mod sample;
 mod scene;
 
+pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
 pub use sample::{Contribution, PathRay, SampleCx, Value};
 pub use scene::{Object, Scene, View};

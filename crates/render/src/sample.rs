@@ -6,7 +6,7 @@ use durer_core::{
 };
 use durer_model::ShadeCx;
 
-use crate::Scene;
+use crate::{Imbalances, MediumStack, Scene};
 
 /// What every function of light transport needs; the first argument everywhere.
 #[derive(Clone, Copy)]
@@ -37,14 +37,29 @@ pub struct PathRay {
     pub depth: u32,
     /// The random numbers of this place in the tree.
     pub sampler: Sampler,
+    /// The transparent bodies that the ray starts in.
+    pub media: MediumStack,
+    /// Metres since the last bounce: above 0 for rays that passed a surface which is not there.
+    pub walked: f32,
+    /// Such surfaces since the last bounce.
+    pub passed: u32,
 }
 
 impl PathRay {
-    /// The eye ray of a sample.
+    /// The eye ray of a sample, in empty space.
     pub fn eye(ray: Ray, sampler: Sampler) -> Self {
-        Self { ray, weight: Spectrum::ONE, throughput: Spectrum::ONE, depth: 0, sampler }
+        Self {
+            ray,
+            weight: Spectrum::ONE,
+            throughput: Spectrum::ONE,
+            depth: 0,
+            sampler,
+            media: MediumStack::default(),
+            walked: 0.0,
+            passed: 0,
+        }
     }
-    /// The `branch`-th ray spawned where this one ended.
+    /// The `branch`-th ray spawned where this one ended, in the same bodies.
     #[must_use]
     pub fn child(&self, ray: Ray, weight: Spectrum, branch: u32) -> Self {
         Self {
@@ -53,6 +68,23 @@ impl PathRay {
             throughput: self.throughput * weight,
             depth: self.depth + 1,
             sampler: self.sampler.fork(branch),
+            media: self.media,
+            walked: 0.0,
+            passed: 0,
+        }
+    }
+    /// The continuation behind a surface that is not there, `walked` metres from where this one started: no bounce, and
+    /// with the same random numbers.
+    #[must_use]
+    pub fn passing(&self, ray: Ray, weight: Spectrum, media: MediumStack, walked: f32) -> Self {
+        Self {
+            ray,
+            weight,
+            throughput: self.throughput * weight,
+            media,
+            walked: self.walked + walked,
+            passed: self.passed + 1,
+            ..*self
         }
     }
 }
@@ -73,10 +105,12 @@ pub struct Contribution {
     pub value: Value,
     /// Rays traced for it, shadow rays included.
     pub rays: u64,
+    /// What was wrong with the bodies it went through.
+    pub imbalances: Imbalances,
 }
 
 impl Default for Contribution {
     fn default() -> Self {
-        Self { value: Value::Data(None), rays: 0 }
+        Self { value: Value::Data(None), rays: 0, imbalances: Imbalances::default() }
     }
 }

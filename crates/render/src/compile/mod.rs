@@ -19,7 +19,7 @@ use durer_core::{
 use durer_model::{light::Light, shape::Geometry};
 use durer_scene::{Assets, CameraDesc, Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
-use crate::{Scene, View, integrator::Integrator};
+use crate::{Media, MediumStack, Scene, View, integrator::Integrator, media};
 
 pub use nodes::integrator;
 pub use report::{GeometryCounts, Report, Times};
@@ -108,10 +108,9 @@ pub fn compile(
     let (lights, light_names): (Vec<Box<dyn Light>>, _) = lights.into_iter().unzip();
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
-    Some(Scene {
+    let mut scene = Scene {
         report,
         objects: placed.objects,
-        materials,
         textures,
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
@@ -122,7 +121,12 @@ pub fn compile(
         targets: placed.targets,
         shapes: placed.shapes,
         movers: placed.movers,
-    })
+        media: Media::new(&materials),
+        start: MediumStack::default(),
+        materials,
+    };
+    scene.start = media::start(&scene);
+    Some(scene)
 }
 
 /// What `work` makes, and how long it takes.

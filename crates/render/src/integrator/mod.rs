@@ -16,6 +16,7 @@ use crate::{
 };
 
 pub use cast::{Cast, Show};
+pub use walk::Shadows;
 pub use whitted::Whitted;
 
 /// What the film holds once it is full.

@@ -5,7 +5,7 @@
 //!
 //! Diffuse interreflection is left to the ambient term. Unlike in 1980 the ambient term knows the normal (a sky's
 //! unoccluded irradiance), and glossy lobes see the sky's blurred mirror image.
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Kind, Schema};
 
 use super::{
     Integrator, Transport,
@@ -13,13 +13,10 @@ use super::{
 };
 use crate::{Contribution, PathRay, SampleCx, probe::Probe};
 
-/// Whitted's integrator with its two stop rules.
+/// Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whitted {
-    /// Bounces traced at most.
-    pub max_depth: u32,
-    /// A branch whose share in the pixel is at or below this is not traced.
-    pub min_contribution: f32,
+    rules: Rules,
 }
 
 impl Kind for Whitted {
@@ -28,21 +25,10 @@ impl Kind for Whitted {
         name: "whitted",
         aliases: &[],
         doc: "Recursive ray tracing: ambient term, shadow rays, mirror reflection and refraction (Whitted 1980).",
-        params: &[
-            ParamSpec::new("maxdepth", ParamType::Int, ParamDefault::Int(10), "Bounces traced at most.")
-                .unit("bounces")
-                .range(0.0, 1000.0),
-            ParamSpec::float(
-                "mincontribution",
-                1.0 / 512.0,
-                "A branch whose share in the pixel is at or below this is not traced.",
-            )
-            .range(0.0, 1.0),
-        ],
+        params: &[Rules::MAX_DEPTH, Rules::MIN_CONTRIBUTION, Rules::SHADOWS, Rules::ATTENUATION_DISTANCE],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let max_depth = args.int("maxdepth") as u32;
-        Some(Box::new(Self { max_depth, min_contribution: args.float("mincontribution") }))
+        Some(Box::new(Self { rules: Rules::from_args(args) }))
     }
 }
 
@@ -55,7 +41,6 @@ impl Transport for Whitted {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let rules = Rules { max_depth: self.max_depth, min_contribution: self.min_contribution };
-        Walk::new(&rules, cx, probe).sample(&ray, parent, out);
+        Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
     }
 }

@@ -29,13 +29,15 @@ pub enum RayKind {
     Shadow,
     /// Mirrored.
     Reflection,
-    /// Refracted, or passing straight on.
+    /// Refracted, or going straight on through something thin.
     Refraction,
+    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another.
+    Passing,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Eye, Self::Shadow, Self::Reflection, Self::Refraction];
+    pub const ALL: [Self; 5] = [Self::Eye, Self::Shadow, Self::Reflection, Self::Refraction, Self::Passing];
 
     /// The word in exports and statistics.
     pub fn word(self) -> &'static str {
@@ -44,6 +46,7 @@ impl RayKind {
             Self::Shadow => "shadow",
             Self::Reflection => "reflection",
             Self::Refraction => "refraction",
+            Self::Passing => "passing",
         }
     }
 }
@@ -107,9 +110,11 @@ pub struct LightEvent {
     pub point: Option<Point3>,
     /// What arrives if nothing is in between.
     pub unoccluded: Spectrum,
-    /// Nothing is in between.
+    /// The share of it that passes what is in between: 1 where nothing is.
+    pub passed: Spectrum,
+    /// Something of it arrives.
     pub visible: bool,
-    /// What is in between; only looked for if the probe [`Probe::RECORDS`].
+    /// What keeps all of it, if something does; only looked for if the probe [`Probe::RECORDS`].
     pub blocker: Option<Id<Object>>,
 }
 

@@ -5,6 +5,7 @@ use durer_model::bsdf::BranchKind;
 use super::{super::shading::Shading, Walk};
 use crate::{
     PathRay,
+    media::Crossing,
     probe::{Probe, RayKind, StopReason},
 };
 
@@ -14,18 +15,19 @@ impl<P: Probe> Walk<'_, P> {
         &mut self,
         parent: &PathRay,
         s: &Shading,
-        id: P::Id,
-        mut radiance: Spectrum,
+        crossing: &Crossing,
+        (id, mut radiance): (P::Id, Spectrum),
     ) -> Spectrum {
         let branches = s.bsdf.branches(s.wo_local);
         let mut count = 0;
         for branch in branches.iter() {
-            let kind = match branch.kind {
-                BranchKind::Reflection => RayKind::Reflection,
-                BranchKind::Transmission => RayKind::Refraction,
+            let (kind, media) = match branch.kind {
+                BranchKind::Reflection => (RayKind::Reflection, parent.media),
+                BranchKind::Transmission => (RayKind::Refraction, crossing.behind),
             };
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
-            let child = parent.child(s.surface.spawn(d, parent.ray.time), branch.weight, count);
+            let ray = s.surface.spawn(d, parent.ray.time);
+            let child = PathRay { media, ..parent.child(ray, branch.weight, count) };
             radiance += branch.weight * self.trace(&child, kind, id);
             count += 1;
         }
