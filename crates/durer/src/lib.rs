@@ -26,7 +26,7 @@ pub use durer_io::{
 };
 pub use durer_model as model;
 pub use durer_render::{
-    Contribution, ImbalanceTotals, Object, PathRay, SampleCx, Scene, Value, View, compile,
+    Contribution, ImbalanceTotals, MediumStack, Object, PathRay, SampleCx, Scene, Value, View, compile,
     drive::{self, Gather, Job, Progress, Rendered, Settings},
     film,
     integrator::{self, Output, Shadows, Show},

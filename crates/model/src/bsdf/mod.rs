@@ -74,7 +74,7 @@ impl Bsdf {
     /// The same lobes seen from afar: of what they scatter the share `arriving` is left, as something on the way along
     /// `wo` absorbs the rest.
     pub fn dim(&mut self, arriving: Spectrum) {
-        self.arriving = self.arriving * arriving;
+        self.arriving *= arriving;
     }
     /// Sets the index of refraction of smooth interfaces: that on the far side of the surface, seen along `wo`, divided by
     /// that on the near side.

@@ -96,14 +96,14 @@ impl<P: Probe> Walk<'_, P> {
             let hit = Hit { t: hit.t * unit, ..hit };
             let mut s = Shading::at(cx, &seen, &hit);
             let crossing = self.cross(&bodies, &mut s);
-            share = share * self.arriving(&bodies, hit.t);
+            share *= self.arriving(&bodies, hit.t);
             match crossing.boundary {
                 Boundary::Passed => {}
                 Boundary::Between(eta) => {
                     s.bsdf.set_eta(s.wo_local, eta);
-                    share = share * s.bsdf.straight(s.wo_local, how);
+                    share *= s.bsdf.straight(s.wo_local, how);
                 }
-                Boundary::Own => share = share * s.bsdf.straight(s.wo_local, how),
+                Boundary::Own => share *= s.bsdf.straight(s.wo_local, how),
             }
             if share.is_black() {
                 return Passage { share, blocker: Some(s.object) };
