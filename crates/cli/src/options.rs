@@ -8,7 +8,7 @@ use clap::{
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use durer::{
-    Options, Show,
+    Options, Shadows, Show,
     accel::{Engine, Preset},
     compile::{Aperture, Focus, LensOptions},
     film::Tile,
@@ -137,6 +137,10 @@ pub(crate) struct TransportOptions {
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     min_contribution: Option<f32>,
+    /// What transparent things do to light: block it, colour it, or also keep what they reflect [default: the scene's,
+    /// else opaque].
+    #[arg(long, value_name = "HOW", value_parser = shadows())]
+    shadows: Option<Shadows>,
     /// How hits are found; the picture does not depend on it [default: balanced].
     #[arg(long, value_name = "HOW", default_value = DEFAULT_SEARCH, hide_default_value = true, value_parser = search())]
     accel: Search,
@@ -197,7 +201,7 @@ impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
         let FilmOptions { width, height, scale, spp, crop, seed } = self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, accel } =
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
             self.transport.clone();
         Options {
             integrator,
@@ -208,6 +212,7 @@ impl SampleOptions {
             samples: spp,
             max_depth,
             min_contribution,
+            shadows,
             crop,
             engine: accel.engine,
             preset: accel.preset,
@@ -234,7 +239,8 @@ impl SampleOptions {
         } = &self.scene;
         // A crop changes no sample.
         let FilmOptions { width, height, scale, spp, crop: _, seed } = &self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, accel } = &self.transport;
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
+            &self.transport;
         let mut words = vec![quoted(scene), format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
         let mut say = |name: &str, value: Option<String>| {
             words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
@@ -256,6 +262,7 @@ impl SampleOptions {
         say("show", show.map(|v| v.word().to_owned()));
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
+        say("shadows", shadows.map(|v| v.word().to_owned()));
         say("accel", Some(accel.word.to_owned()).filter(|word| word != DEFAULT_SEARCH));
         self.distribution.words().into_iter().for_each(|(name, value)| say(name, value));
         if *lenient {
@@ -281,6 +288,10 @@ fn integrators() -> Vec<PossibleValue> {
 
 fn show() -> impl TypedValueParser<Value = Show> {
     PossibleValuesParser::new(Show::WORDS).try_map(|word| Show::from_word(&word).ok_or("unknown"))
+}
+
+fn shadows() -> impl TypedValueParser<Value = Shadows> {
+    PossibleValuesParser::new(Shadows::WORDS).try_map(|word| Shadows::from_word(&word).ok_or("unknown"))
 }
 
 impl Search {

@@ -3,7 +3,7 @@ use std::{path::PathBuf, time::Instant};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
-    Gather, Output, Prepared, Rendered,
+    Gather, Id, MediumStack, Output, Prepared, Rendered,
     film::{Tile, ToneMap},
 };
 
@@ -38,7 +38,7 @@ id (1 is the first object). All are 0 where nothing was hit.
 
 stdout holds the paths of the files, a line each, or with --stats=json an object:
 version 1; durer, scene, integrator, width, height, spp, seed, threads, outputs,
-interrupted, samples, bad_samples, first_bad, seconds, rays, stops, tests,
+interrupted, samples, bad_samples, first_bad, imbalances, seconds, rays, stops, tests,
 max_depth, build. Within a version keys may be added, none renamed.
 
 Ctrl-C writes the picture so far and exits with 130; a second one exits at once.";
@@ -92,6 +92,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let rendered = args.render(prepared, &interrupt);
     let render = start.elapsed();
     args.warn_about_bad_samples(&rendered);
+    args.warn_about_imbalances(prepared, &rendered);
 
     let start = Instant::now();
     let pixels = rendered.film.pixels();
@@ -179,6 +180,39 @@ impl Args {
             n => format!("{n} samples were infinite or NaN and were left out; the first"),
         };
         tell(&format!("warning: {counted} is replayed by\n  durer trace {replay}"));
+    }
+
+    /// Names the objects that rays left without having entered them: the most often left first.
+    fn warn_about_imbalances(&self, prepared: &Prepared, rendered: &Rendered) {
+        /// Objects named at most.
+        const NAMED: usize = 5;
+        let found = &rendered.imbalances;
+        if self.talk.quiet || found.is_empty() {
+            return;
+        }
+        let mut objects: Vec<(u32, u64)> = found.objects.iter().map(|(o, n)| (*o, *n)).collect();
+        objects.sort_by_key(|&(object, rays)| (std::cmp::Reverse(rays), object));
+        let named = objects.iter().take(NAMED).map(|&(object, rays)| {
+            let name = &prepared.scene.object(Id::new(object)).name;
+            format!("{name} ({})", counted(rays, "time", "times"))
+        });
+        let named = named.collect::<Vec<_>>().join(", ");
+        if !objects.is_empty() {
+            let more = objects.len().saturating_sub(NAMED);
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            tell(&format!(
+                "warning: rays left transparent bodies that they had not entered: {named}{more}\n  \
+                 the surface may be inside out (ReverseOrientation), open, or cut by another; or the camera is in a body \
+                 that is closed on few sides"
+            ));
+        }
+        if found.too_deep > 0 {
+            let times = counted(found.too_deep, "time", "times");
+            tell(&format!(
+                "warning: {times} a ray was in more than {} transparent bodies at once: the last were left out",
+                MediumStack::CAPACITY
+            ));
+        }
     }
 
     fn tell_summary(&self, picture: &Picture<'_>, stats: &Stats<'_>) {

@@ -3,7 +3,7 @@ use std::{fmt::Write, time::Duration};
 
 use clap::ValueEnum;
 use durer::{
-    Prepared, Rendered,
+    Id, ImbalanceTotals, Prepared, Rendered,
     probe::{Counters, RayKind, StopReason},
 };
 use serde::Serialize;
@@ -55,6 +55,7 @@ pub(crate) struct Stats<'a> {
     samples: u64,
     bad_samples: u64,
     first_bad: Option<Bad>,
+    imbalances: Imbalances<'a>,
     seconds: Phases,
     rays: Rays,
     /// Why rays ended, by reason.
@@ -68,6 +69,20 @@ pub(crate) struct Stats<'a> {
 struct Bad {
     pixel: [u32; 2],
     sample: u32,
+}
+
+/// Rays that left transparent bodies which they were not in.
+#[derive(Serialize)]
+struct Imbalances<'a> {
+    objects: Vec<Imbalanced<'a>>,
+    elsewhere: u64,
+    too_deep: u64,
+}
+
+#[derive(Serialize)]
+struct Imbalanced<'a> {
+    object: &'a str,
+    rays: u64,
 }
 
 #[derive(Serialize)]
@@ -126,6 +141,7 @@ impl<'a> Stats<'a> {
             samples: rendered.samples,
             bad_samples: rendered.bad_samples,
             first_bad: rendered.first_bad.map(|b| Bad { pixel: b.pixel, sample: b.sample }),
+            imbalances: Imbalances::new(facts),
             seconds: Phases {
                 load: load.as_secs_f64(),
                 build: build.as_secs_f64(),
@@ -182,6 +198,9 @@ impl<'a> Stats<'a> {
         };
         row("samples", count(self.samples));
         row("bad samples", count(self.bad_samples));
+        for found in &self.imbalances.objects {
+            row(&format!("left unentered, {}", found.object), count(found.rays));
+        }
         for (kind, n) in &self.rays.by_kind {
             row(&format!("rays, {kind}"), count(n.as_u64().unwrap_or(0)));
         }
@@ -202,6 +221,15 @@ impl<'a> Stats<'a> {
             row(&format!("time, {phase}"), seconds(Duration::from_secs_f64(s)));
         }
         text
+    }
+}
+
+impl<'a> Imbalances<'a> {
+    fn new(facts: &Facts<'a>) -> Self {
+        let ImbalanceTotals { objects, elsewhere, too_deep } = &facts.rendered.imbalances;
+        let name = |number: u32| facts.prepared.scene.object(Id::new(number)).name.as_str();
+        let objects = objects.iter().map(|(object, rays)| Imbalanced { object: name(*object), rays: *rays });
+        Self { objects: objects.collect(), elsewhere: *elsewhere, too_deep: *too_deep }
     }
 }
 

@@ -27,10 +27,10 @@ pub use durer_io::{
 };
 pub use durer_model as model;
 pub use durer_render::{
-    Contribution, Object, PathRay, SampleCx, Scene, Value, View, compile,
+    Contribution, ImbalanceTotals, MediumStack, Object, PathRay, SampleCx, Scene, Value, View, compile,
     drive::{self, Gather, Job, Progress, Rendered, Settings},
     film,
-    integrator::{self, Output, Show},
+    integrator::{self, Output, Shadows, Show},
     probe,
 };
 pub use durer_scene as scene;

@@ -6,7 +6,7 @@ use durer_core::math::Interval;
 use durer_render::{
     compile::LensOptions,
     film::Tile,
-    integrator::{Sampling, Show},
+    integrator::{Sampling, Shadows, Show},
 };
 use durer_scene::Missing;
 
@@ -48,6 +48,8 @@ pub struct Options {
     pub min_contribution: Option<f32>,
     /// Rays per effect of distributed ray tracing.
     pub distribution: Distribution,
+    /// What transparent things do to shadow rays.
+    pub shadows: Option<Shadows>,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.

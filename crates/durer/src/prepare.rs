@@ -182,6 +182,7 @@ fn wishes(options: &Options) -> Vec<(&'static str, &'static str, ValueType, Data
         ("what is shown of a hit", "show", options.show.map(|show| text(show.word()))),
         ("the depth limit", "maxdepth", options.max_depth.map(int)),
         ("the contribution limit", "mincontribution", options.min_contribution.map(float)),
+        ("what transparent things do to shadows", "shadows", options.shadows.map(|s| text(s.word()))),
         ("the number of shadow rays", "shadowrays", shadow_rays.map(int)),
         ("the number of gloss rays", "glossrays", gloss_rays.map(int)),
         ("the number of moments", "timesamples", time_samples.map(int)),

@@ -9,6 +9,7 @@ pub mod camera;
 pub mod filter;
 pub mod light;
 pub mod material;
+mod medium;
 pub mod shape;
 mod surface;
 pub mod texture;
@@ -16,6 +17,7 @@ pub mod texture;
 use durer_core::spectrum::{Basis, Color};
 use durer_scene::{ColorInput, FloatInput};
 
+pub use medium::Medium;
 pub use surface::Surface;
 use texture::{Texture, TextureAt};
 

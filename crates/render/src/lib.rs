@@ -8,11 +8,13 @@ pub mod compile;
 pub mod drive;
 pub mod film;
 pub mod integrator;
+mod media;
 pub mod probe;
 mod sample;
 mod scene;
 mod view;
 
+pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
 pub use sample::{Contribution, Draw, PathRay, SampleCx, Value};
 pub use scene::{Object, Scene};
 pub use view::{CameraPlacement, View};

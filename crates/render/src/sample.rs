@@ -6,7 +6,7 @@ use durer_core::{
 };
 use durer_model::ShadeCx;
 
-use crate::Scene;
+use crate::{Imbalances, MediumStack, Scene};
 
 /// What every function of light transport needs; the first argument everywhere.
 #[derive(Clone, Copy)]
@@ -41,6 +41,12 @@ pub struct PathRay {
     pub siblings: f32,
     /// The draw that chose the direction; `None` where there was no choice.
     pub draw: Option<Draw>,
+    /// The transparent bodies that the ray starts in.
+    pub media: MediumStack,
+    /// Metres since the last bounce: above 0 for rays that passed a surface which is not there.
+    pub walked: f32,
+    /// Such surfaces since the last bounce.
+    pub passed: u32,
 }
 
 /// A direction that was drawn: what weighs a light that it meets against sampling the light.
@@ -53,7 +59,7 @@ pub struct Draw {
 }
 
 impl PathRay {
-    /// The eye ray of a sample.
+    /// The eye ray of a sample, in empty space.
     pub fn eye(ray: Ray, sampler: Sampler) -> Self {
         Self {
             ray,
@@ -63,9 +69,12 @@ impl PathRay {
             sampler,
             siblings: 1.0,
             draw: None,
+            media: MediumStack::default(),
+            walked: 0.0,
+            passed: 0,
         }
     }
-    /// The `branch`-th ray spawned where this one ended.
+    /// The `branch`-th ray spawned where this one ended, in the same bodies.
     #[must_use]
     pub fn child(&self, ray: Ray, weight: Spectrum, branch: u32) -> Self {
         Self {
@@ -76,6 +85,23 @@ impl PathRay {
             sampler: self.sampler.fork(branch),
             siblings: self.siblings,
             draw: None,
+            media: self.media,
+            walked: 0.0,
+            passed: 0,
+        }
+    }
+    /// The continuation behind a surface that is not there, `walked` metres from where this one started: no bounce, and
+    /// with the same random numbers.
+    #[must_use]
+    pub fn passing(&self, ray: Ray, weight: Spectrum, media: MediumStack, walked: f32) -> Self {
+        Self {
+            ray,
+            weight,
+            throughput: self.throughput * weight,
+            media,
+            walked: self.walked + walked,
+            passed: self.passed + 1,
+            ..*self
         }
     }
 }
@@ -96,10 +122,12 @@ pub struct Contribution {
     pub value: Value,
     /// Rays traced for it, shadow rays included.
     pub rays: u64,
+    /// What was wrong with the bodies it went through.
+    pub imbalances: Imbalances,
 }
 
 impl Default for Contribution {
     fn default() -> Self {
-        Self { value: Value::Data(None), rays: 0 }
+        Self { value: Value::Data(None), rays: 0, imbalances: Imbalances::default() }
     }
 }

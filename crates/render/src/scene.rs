@@ -16,7 +16,7 @@ use durer_model::{
 };
 use durer_scene::Mesh;
 
-use crate::{SampleCx, View, probe::Probe};
+use crate::{Media, MediumStack, SampleCx, View, probe::Probe};
 
 /// A thing with a name and a material: what a hit belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,6 +89,10 @@ pub struct Scene {
     pub(crate) targets: Vec<Target>,
     pub(crate) shapes: Vec<PlacedShape>,
     pub(crate) movers: Vec<PlacedShape>,
+    /// What fills transparent bodies.
+    pub media: Media,
+    /// The bodies that the camera is in.
+    pub start: MediumStack,
 }
 
 /// The scene's own part of a ray's way: shapes that are no meshes, and what is not there for the ray.
@@ -104,15 +108,7 @@ impl UserGeometry for Asked<'_> {
     const FILTERS: bool = true;
 
     fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
-        let scene = self.cx.scene;
-        let placed = match scene.targets[instance as usize] {
-            Target::Mover(index) => &scene.movers[index as usize],
-            _ => &scene.shapes[prim as usize],
-        };
-        let m = &placed.object_from_render;
-        let local = Ray { o: m.point(ray.o), d: m.vector(ray.d), t_min: ray.t_min, t_max, time: ray.time };
-        let hit = placed.shape.intersect(&local)?;
-        Some(PrimitiveHit { t: hit.t, u: hit.u, v: hit.v })
+        self.cx.scene.intersect_shape(instance, prim, ray, t_max)
     }
 
     /// False in holes, and on the backs of shapes that hide them.
@@ -140,6 +136,35 @@ impl Scene {
     /// True if anything that is no hole lies on the ray.
     pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
         self.accel.query(ray).user(&Asked { cx, ray, culls: false }).probe(probe, id).any()
+    }
+
+    /// The nearest hit that is no hole, backs of one-sided things included: what a ray to a light meets.
+    pub(crate) fn closest_in_the_way<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: &Ray,
+        probe: &mut P,
+        id: P::Id,
+    ) -> Option<Hit> {
+        self.accel.query(ray).user(&Asked { cx, ray, culls: false }).probe(probe, id).closest()
+    }
+
+    /// Meets a ray with a shape that is no mesh, for the kernel.
+    pub(crate) fn intersect_shape(
+        &self,
+        instance: u32,
+        prim: u32,
+        ray: &Ray,
+        t_max: f32,
+    ) -> Option<PrimitiveHit> {
+        let placed = match self.targets[instance as usize] {
+            Target::Mover(index) => &self.movers[index as usize],
+            _ => &self.shapes[prim as usize],
+        };
+        let m = &placed.object_from_render;
+        let local = Ray { o: m.point(ray.o), d: m.vector(ray.d), t_min: ray.t_min, t_max, time: ray.time };
+        let hit = placed.shape.intersect(&local)?;
+        Some(PrimitiveHit { t: hit.t, u: hit.u, v: hit.v })
     }
 
     /// The nearest object that casts a shadow on the ray; unwatched.

@@ -56,6 +56,7 @@ struct Light<'a> {
     name: Option<&'a str>,
     point: Option<[f64; 3]>,
     visible: bool,
+    passed: [f32; 3],
     unoccluded: [f32; 3],
 }
 
@@ -113,6 +114,7 @@ fn node<'a>(traced: &'a Traced<'a>, id: usize, node: &'a TreeNode) -> Node<'a> {
             name: scene.light_names.get(l.light as usize).map(String::as_str),
             point: l.point.map(place),
             visible: l.visible,
+            passed: rgb(l.passed),
             unoccluded: rgb(l.unoccluded),
         }),
         blocker: light.and_then(|l| l.blocker).map(|b| scene.object(b).name.as_str()),

@@ -42,6 +42,18 @@ impl Branches {
     pub fn iter(&self) -> impl Iterator<Item = &Branch> {
         self.list[..self.count].iter().flatten()
     }
+    /// Multiplies all weights; a branch that then carries nothing goes.
+    pub(super) fn dim(&mut self, arriving: Spectrum) {
+        if arriving == Spectrum::ONE {
+            return;
+        }
+        let old = *self;
+        self.count = 0;
+        for branch in old.iter() {
+            self.add(branch.kind, branch.wi, arriving * branch.weight);
+        }
+        self.total_internal_reflection = old.total_internal_reflection.map(|weight| arriving * weight);
+    }
     /// Adds a branch unless it carries nothing.
     pub(super) fn add(&mut self, kind: BranchKind, wi: Vector3, weight: Spectrum) {
         if weight.is_black() {

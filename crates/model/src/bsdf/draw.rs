@@ -1,4 +1,6 @@
 //! Directions drawn from lobes that spread: what a distributed ray follows instead of one sharp direction.
+use durer_core::spectrum::Spectrum;
+
 use super::{Branch, Bsdf};
 
 /// A direction drawn from a lobe. `branch.weight` is `f cos / density`: averaged over many draws the branches give what
@@ -25,6 +27,12 @@ impl Draws {
     /// The draws, in the order of their lobes.
     pub fn iter(&self) -> impl Iterator<Item = &Drawn> {
         self.list[..self.count].iter().flatten()
+    }
+    /// Multiplies all weights.
+    pub(super) fn dim(&mut self, arriving: Spectrum) {
+        for drawn in self.list.iter_mut().flatten() {
+            drawn.branch.weight *= arriving;
+        }
     }
     /// Adds a draw.
     pub(super) fn add(&mut self, drawn: Drawn) {

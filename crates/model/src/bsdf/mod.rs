@@ -18,6 +18,7 @@ mod highlight;
 mod interface;
 mod lobe;
 mod refract;
+mod straight;
 
 use durer_core::{
     math::{Point2, Vector3},
@@ -35,6 +36,7 @@ pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use lobe::Lobe;
 pub use refract::{reflect, refract};
+pub use straight::Straight;
 
 /// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,10 +53,18 @@ pub enum Seen {
 }
 
 /// The lobes at one point.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Bsdf {
     lobes: [Option<Lobe>; Bsdf::MOST_LOBES],
     count: usize,
+    /// What of all scattered light arrives at the end of `wo`.
+    arriving: Spectrum,
+}
+
+impl Default for Bsdf {
+    fn default() -> Self {
+        Self { lobes: [None; Self::MOST_LOBES], count: 0, arriving: Spectrum::ONE }
+    }
 }
 
 impl Bsdf {
@@ -85,15 +95,29 @@ impl Bsdf {
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
         self.lobes[..self.count].iter().flatten()
     }
+    /// The same lobes seen from afar: of what they scatter the share `arriving` is left, as something on the way along
+    /// `wo` absorbs the rest.
+    pub fn dim(&mut self, arriving: Spectrum) {
+        self.arriving *= arriving;
+    }
+    /// Sets the index of refraction of interfaces: that on the far side of the surface, seen along `wo`, divided by
+    /// that on the near side.
+    pub fn set_eta(&mut self, wo: Vector3, far_over_near: f32) {
+        for lobe in self.lobes[..self.count].iter_mut().flatten() {
+            if let Lobe::Interface(interface) | Lobe::Blurred(Blurred { interface, .. }) = lobe {
+                interface.eta = if wo.z > 0.0 { far_over_near } else { 1.0 / far_over_near };
+            }
+        }
+    }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
-        self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
+        self.arriving * self.lobes().fold(Spectrum::BLACK, |sum, lobe| sum + lobe.eval(wo, wi))
     }
     /// The part of [`Bsdf::eval`] that counts for the light of something that rays can meet: each lobe by its share
     /// `keep`, which is asked with the lobe's own answer where rays of its own find the light too (see [`Seen`]).
     pub fn eval_shared(&self, wo: Vector3, wi: Vector3, seen: Seen) -> Spectrum {
         let mirrors = || self.lobes().any(|lobe| matches!(lobe, Lobe::Mirror { .. } | Lobe::Interface(_)));
-        self.lobes().fold(Spectrum::BLACK, |sum, lobe| {
+        let sum = self.lobes().fold(Spectrum::BLACK, |sum, lobe| {
             let share = match (lobe, seen) {
                 (Lobe::Highlight(_), _) if mirrors() => 0.0,
                 (_, Seen::Branches) => lobe.share_beside_branches(),
@@ -103,7 +127,8 @@ impl Bsdf {
                 },
             };
             if share == 0.0 { sum } else { sum + lobe.eval(wo, wi) * share }
-        })
+        });
+        self.arriving * sum
     }
     /// True if light from the other side is scattered to this one.
     pub fn is_frosted(&self) -> bool {
@@ -133,7 +158,8 @@ impl Bsdf {
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
-        own.unwrap_or_else(|| self.lobes().filter_map(diffuse).fold(Spectrum::BLACK, |a, b| a + b))
+        let diffuse = || self.lobes().filter_map(diffuse).fold(Spectrum::BLACK, |a, b| a + b);
+        self.arriving * own.unwrap_or_else(diffuse)
     }
     /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
     /// one whose `alpha` is their weighted mean.
@@ -142,11 +168,12 @@ impl Bsdf {
             Lobe::Glossy(glossy) => glossy.view(wo),
             _ => None,
         });
-        views.reduce(|a, b| {
+        let seen = views.reduce(|a, b| {
             let (wa, wb) = (a.weight.mean(), b.weight.mean());
             let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
             GlossyView { wi: a.wi, weight: a.weight + b.weight, alpha }
-        })
+        });
+        seen.map(|view| GlossyView { weight: self.arriving * view.weight, ..view })
     }
     /// The perfectly sharp directions, and those of nearly smooth glossy lobes (see [`Glossy`]).
     pub fn branches(&self, wo: Vector3) -> Branches {
@@ -154,6 +181,7 @@ impl Bsdf {
         for lobe in self.lobes() {
             lobe.add_branches(wo, &mut branches);
         }
+        branches.dim(self.arriving);
         branches
     }
     /// The perfectly sharp directions only: what is left to follow beside [`Bsdf::draws`].
@@ -162,6 +190,7 @@ impl Bsdf {
         for lobe in self.lobes() {
             lobe.add_sharp_branches(wo, &mut branches);
         }
+        branches.dim(self.arriving);
         branches
     }
     /// Whether directions can be drawn from a lobe.
@@ -178,6 +207,7 @@ impl Bsdf {
         for (number, lobe) in (0..).zip(self.lobes()) {
             lobe.draw(wo, u(number), &mut draws);
         }
+        draws.dim(self.arriving);
         draws
     }
     /// The surface's own colour as people would name it, at most 1: diffuse albedo plus the tint of what it reflects at

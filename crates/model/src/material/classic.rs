@@ -12,7 +12,7 @@ use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Sc
 
 use super::{Material, share, share_input};
 use crate::{
-    ShadeCx, Surface,
+    Medium, ShadeCx, Surface,
     bsdf::{Bsdf, Highlight, Interface, Lobe, Split},
 };
 
@@ -26,7 +26,7 @@ pub struct Classic {
     exponent: f32,
     reflection: Option<ColorInput>,
     transmission: Option<ColorInput>,
-    eta: f32,
+    medium: Medium,
     fresnel: bool,
 }
 
@@ -64,6 +64,8 @@ impl Kind for Classic {
             ),
             ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
                 .range(0.1, 10.0),
+            Medium::PRIORITY,
+            Medium::ABSORPTION,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -75,7 +77,10 @@ impl Kind for Classic {
             exponent: args.float("exponent"),
             reflection: unless_black(share_input(args, "reflection")),
             transmission: unless_black(share_input(args, "transmission")),
-            eta: args.float("eta"),
+            medium: {
+                let eta = args.float("eta");
+                Medium::read(args, eta)
+            },
             fresnel: args.bool("fresnel"),
         }))
     }
@@ -104,10 +109,13 @@ impl Material for Classic {
                 true => Split::Fresnel { reflection, transmission },
                 false => Split::Constant { reflection, transmission },
             };
-            bsdf.add(Lobe::Interface(Interface { eta: self.eta, split }));
+            bsdf.add(Lobe::Interface(Interface { eta: self.medium.eta, split }));
         } else if !reflection.is_black() {
             bsdf.add(Lobe::Mirror { weight: reflection });
         }
         bsdf
+    }
+    fn medium(&self) -> Option<Medium> {
+        self.transmission.is_some().then_some(self.medium)
     }
 }

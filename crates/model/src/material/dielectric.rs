@@ -4,14 +4,14 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Material, warn_unsupported};
 use crate::{
-    ShadeCx, Surface,
+    Medium, ShadeCx, Surface,
     bsdf::{Bsdf, Interface, Lobe},
 };
 
 /// A smooth interface; the outside is where the normal points.
 #[derive(Debug)]
 pub struct Dielectric {
-    eta: f32,
+    medium: Medium,
 }
 
 /// Parameters of pbrt's rough dielectric and its surface detail.
@@ -31,6 +31,8 @@ impl Kind for Dielectric {
                 "Index of refraction inside, relative to the outside.",
             )
             .range(0.1, 10.0),
+            Medium::PRIORITY,
+            Medium::ABSORPTION,
             ParamSpec::float("roughness", 0.0, "Only 0 is supported yet.").range(0.0, 1.0),
             ParamSpec::new("uroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
             ParamSpec::new("vroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
@@ -50,12 +52,15 @@ impl Kind for Dielectric {
             args.warning("roughness", "rough dielectrics are not supported yet; smooth is used");
         }
         let eta = args.index("eta");
-        Some(Box::new(Self { eta }))
+        Some(Box::new(Self { medium: Medium::read(args, eta) }))
     }
 }
 
 impl Material for Dielectric {
     fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
-        Bsdf::default().with(Lobe::Interface(Interface::clear(self.eta)))
+        Bsdf::default().with(Lobe::Interface(Interface::clear(self.medium.eta)))
+    }
+    fn medium(&self) -> Option<Medium> {
+        Some(self.medium)
     }
 }

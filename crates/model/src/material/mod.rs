@@ -19,7 +19,7 @@ pub use self::{
     classic::Classic, dielectric::Dielectric, diffuse::Diffuse, interface::Interface, mirror::Mirror,
     principled::Principled,
 };
-use crate::{ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
+use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
 /// A material.
 pub trait Material: Debug + Send + Sync {
@@ -30,6 +30,10 @@ pub trait Material: Debug + Send + Sync {
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let _ = (cx, at);
         Spectrum::BLACK
+    }
+    /// What fills the body behind the surface, if light can get in.
+    fn medium(&self) -> Option<Medium> {
+        None
     }
     /// True if some points of the surface may be holes, see [`Material::is_hole`].
     fn has_holes(&self) -> bool {

@@ -259,10 +259,15 @@ impl Placing<'_> {
         Visibility {
             hides_backs: material.is_some_and(|m| m.is_one_sided()),
             is_reversed: object.reverse_orientation,
-            is_filtered: material.is_some_and(|m| m.has_holes()),
+            is_filtered: material.is_some_and(|m| m.has_holes() || may_touch(&**m)),
             ..Visibility::default()
         }
     }
+}
+
+/// Whether rays look for what its surfaces touch, see `media::crossing`.
+fn may_touch(material: &dyn Material) -> bool {
+    material.medium().is_some_and(|medium| medium.priority.is_some())
 }
 
 /// The same of a shape that is no mesh: the kernel does not know its front.

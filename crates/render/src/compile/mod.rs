@@ -18,7 +18,7 @@ use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{light::Light, shape::Geometry};
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Scene, integrator::NOT_YET};
+use crate::{Media, MediumStack, Scene, integrator::NOT_YET, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
 pub use nodes::integrator;
@@ -112,7 +112,6 @@ pub fn compile(
     let mut scene = Scene {
         report,
         objects: placed.objects,
-        materials,
         textures,
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
@@ -123,8 +122,12 @@ pub fn compile(
         targets: placed.targets,
         shapes: placed.shapes,
         movers: placed.movers,
+        media: Media::new(&materials),
+        start: MediumStack::default(),
+        materials,
     };
     camera::focus(&mut scene, camera.node.at, diagnostics)?;
+    scene.start = media::start(&scene);
     Some(scene)
 }
 

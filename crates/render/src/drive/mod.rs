@@ -18,7 +18,7 @@ use std::sync::{
 use durer_core::{sampling::Sampler, spectrum::Basis};
 
 use crate::{
-    Contribution, PathRay, SampleCx, Scene, Value,
+    Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
     integrator::Integrator,
     probe::{Counters, RayTree},
@@ -62,6 +62,8 @@ pub struct Rendered {
     pub bad_samples: u64,
     /// The first of them, by sample index, row and column.
     pub first_bad: Option<BadSample>,
+    /// Rays that left transparent bodies which they were not in.
+    pub imbalances: ImbalanceTotals,
     /// True if the picture is not complete.
     pub cancelled: bool,
 }
@@ -138,6 +140,7 @@ impl<'a> Job<'a> {
             counters: gather.counters(),
             bad_samples: 0,
             first_bad: None,
+            imbalances: ImbalanceTotals::default(),
             cancelled: false,
         };
         let tiles = window.squares(TILE);
@@ -202,6 +205,7 @@ impl<'a> Job<'a> {
                     }
                     done.samples += 1;
                     done.rays += out.rays;
+                    done.imbalances.add(&out.imbalances);
                     match film_value(&cx, &out) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
@@ -234,6 +238,7 @@ struct TileDone {
     counters: Option<Counters>,
     bad_samples: u64,
     first_bad: Option<BadSample>,
+    imbalances: ImbalanceTotals,
 }
 
 impl TileDone {
@@ -248,6 +253,7 @@ impl Rendered {
         self.samples += done.samples;
         self.rays += done.rays;
         self.bad_samples += done.bad_samples;
+        self.imbalances.merge(&done.imbalances);
         if let (Some(all), Some(counters)) = (&mut self.counters, &done.counters) {
             all.merge(counters);
         }

@@ -15,7 +15,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
     EyeSamples, Integrator, Transport,
-    walk::{MAX_DEPTH, MIN_CONTRIBUTION, Rules, Walk},
+    walk::{Rules, Walk},
 };
 use crate::{Contribution, PathRay, SampleCx, probe::Probe};
 
@@ -73,8 +73,10 @@ impl Kind for Distributed {
         doc: "Distributed ray tracing: soft shadows, gloss, translucency, motion blur and depth of field by distributing \
               rays (Cook, Porter and Carpenter 1984).",
         params: &[
-            MAX_DEPTH,
-            MIN_CONTRIBUTION,
+            Rules::MAX_DEPTH,
+            Rules::MIN_CONTRIBUTION,
+            Rules::SHADOWS,
+            Rules::ATTENUATION_DISTANCE,
             rays("shadowrays", "Rays to each light with extent; 0: to its middle only, for hard shadows."),
             rays("glossrays", "Rays about each blurred direction; 0: the sharp one only."),
             rays("timesamples", "Moments in the time the shutter is open; 0: its middle only."),
@@ -105,7 +107,7 @@ impl Kind for Distributed {
         let rules = Rules {
             shadow_rays: at_hits(shadow_rays),
             gloss_rays: NonZeroU32::new(at_hits(gloss_rays)),
-            ..Rules::read(args)
+            ..Rules::from_args(args)
         };
         Some(Box::new(Self {
             rules,

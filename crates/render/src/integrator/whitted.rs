@@ -9,13 +9,15 @@ use durer_scene::{Args, Kind, Schema};
 
 use super::{
     Integrator, Transport,
-    walk::{MAX_DEPTH, MIN_CONTRIBUTION, Rules, Walk},
+    walk::{Rules, Walk},
 };
 use crate::{Contribution, PathRay, SampleCx, probe::Probe};
 
-/// Whitted's integrator with its two stop rules.
+/// Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Whitted(Rules);
+pub struct Whitted {
+    rules: Rules,
+}
 
 impl Kind for Whitted {
     type Output = Box<dyn Integrator>;
@@ -23,16 +25,16 @@ impl Kind for Whitted {
         name: "whitted",
         aliases: &[],
         doc: "Recursive ray tracing: ambient term, shadow rays, mirror reflection and refraction (Whitted 1980).",
-        params: &[MAX_DEPTH, MIN_CONTRIBUTION],
+        params: &[Rules::MAX_DEPTH, Rules::MIN_CONTRIBUTION, Rules::SHADOWS, Rules::ATTENUATION_DISTANCE],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self(Rules::read(args))))
+        Some(Box::new(Self { rules: Rules::from_args(args) }))
     }
 }
 
 impl Transport for Whitted {
     fn depth_limit(&self) -> Option<u32> {
-        Some(self.0.max_depth)
+        Some(self.rules.max_depth)
     }
     fn sample<P: Probe>(
         &self,
@@ -42,6 +44,6 @@ impl Transport for Whitted {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        Walk::new(&self.0, cx, probe).sample(&ray, parent, out);
+        Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
     }
 }

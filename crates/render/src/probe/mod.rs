@@ -29,23 +29,26 @@ pub enum RayKind {
     Shadow,
     /// Mirrored.
     Reflection,
-    /// Refracted, or passing straight on.
+    /// Refracted, or going straight on through something thin.
     Refraction,
     /// Drawn about a mirrored direction.
     GlossyReflection,
     /// Drawn about a refracted direction: translucency.
     GlossyRefraction,
+    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another.
+    Passing,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Eye,
         Self::Shadow,
         Self::Reflection,
         Self::Refraction,
         Self::GlossyReflection,
         Self::GlossyRefraction,
+        Self::Passing,
     ];
 
     /// The kind of ray that follows a perfectly sharp direction.
@@ -72,6 +75,7 @@ impl RayKind {
             Self::Refraction => "refraction",
             Self::GlossyReflection => "glossy-reflection",
             Self::GlossyRefraction => "glossy-refraction",
+            Self::Passing => "passing",
         }
     }
 }
@@ -135,9 +139,11 @@ pub struct LightEvent {
     pub point: Option<Point3>,
     /// What arrives if nothing is in between.
     pub unoccluded: Spectrum,
-    /// Nothing is in between.
+    /// The share of it that passes what is in between: 1 where nothing is.
+    pub passed: Spectrum,
+    /// Something of it arrives.
     pub visible: bool,
-    /// What is in between; only looked for if the probe [`Probe::RECORDS`].
+    /// What keeps all of it, if something does; only looked for if the probe [`Probe::RECORDS`].
     pub blocker: Option<Id<Object>>,
 }
 

@@ -4,6 +4,7 @@ use durer_core::spectrum::Spectrum;
 use super::{super::shading::Shading, Walk};
 use crate::{
     PathRay,
+    media::Crossing,
     probe::{Probe, RayKind, StopReason},
 };
 
@@ -13,8 +14,8 @@ impl<P: Probe> Walk<'_, P> {
         &mut self,
         parent: &PathRay,
         s: &Shading,
-        id: P::Id,
-        mut radiance: Spectrum,
+        crossing: &Crossing,
+        (id, mut radiance): (P::Id, Spectrum),
     ) -> Spectrum {
         let (branches, follows) = match self.rules.gloss_rays {
             None => (s.bsdf.branches(s.wo_local), false),
@@ -23,8 +24,10 @@ impl<P: Probe> Walk<'_, P> {
         let mut count = 0;
         for branch in branches.iter() {
             let kind = RayKind::sharp(branch.kind);
+            let media = crossing.media(branch.kind, parent);
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
-            let child = parent.child(s.surface.spawn(d, parent.ray.time), branch.weight, count);
+            let ray = s.surface.spawn(d, parent.ray.time);
+            let child = PathRay { media, ..parent.child(ray, branch.weight, count) };
             radiance += branch.weight * self.trace(&child, kind, id);
             count += 1;
         }

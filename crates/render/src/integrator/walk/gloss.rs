@@ -4,6 +4,7 @@ use durer_core::{sampling::Dim, spectrum::Spectrum};
 use super::{super::shading::Shading, Walk};
 use crate::{
     Draw, PathRay,
+    media::Crossing,
     probe::{Probe, RayKind},
 };
 
@@ -16,9 +17,9 @@ impl<P: Probe> Walk<'_, P> {
         &mut self,
         parent: &PathRay,
         s: &Shading,
-        id: P::Id,
+        crossing: &Crossing,
         rays: u32,
-        mut radiance: Spectrum,
+        (id, mut radiance): (P::Id, Spectrum),
     ) -> Spectrum {
         // All rays of the pixel's samples together are spread evenly over each lobe.
         let samplers =
@@ -32,6 +33,7 @@ impl<P: Probe> Walk<'_, P> {
                 let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
                 let ray = s.surface.spawn(d, parent.ray.time);
                 let child = PathRay {
+                    media: crossing.media(branch.kind, parent),
                     sampler: sampler_of(Self::AFTER_LOBES + number),
                     draw: Some(Draw { from: s.surface.p, density: drawn.pdf * rays as f32 }),
                     siblings: parent.siblings * rays as f32,

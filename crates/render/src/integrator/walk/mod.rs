@@ -1,25 +1,34 @@
 //! The recursion that all branching integrators share:
 //!
-//! `L = L_e + ambient term + sum over lights of (f cos * light, if its shadow ray arrives) + sum over branches of
-//! weight * L(child)`.
+//! `L = T (L_e + ambient term + sum over lights of (f cos * light, if its shadow ray arrives) + sum over branches of
+//! weight * L(child))`,
+//!
+//! where `T` is what the way along the ray leaves: absorption in the body it is in, and the distance attenuation of the
+//! rules. `T` is part of the local terms and of the weights, so that the sum is one of children.
 //!
 //! They differ in their [`Rules`] only.
 mod branches;
 mod gloss;
 mod lights;
+mod medium;
 mod rules;
 mod shadow;
 
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
 
-pub(super) use rules::{MAX_DEPTH, MIN_CONTRIBUTION, Rules};
-
 use super::shading::Shading;
 use crate::{
-    Contribution, PathRay, SampleCx, Value,
+    Contribution, Imbalances, PathRay, SampleCx, Value,
+    media::Boundary,
     probe::{Probe, RayKind, StopReason},
 };
+
+pub(super) use rules::Rules;
+pub use rules::Shadows;
+
+/// Surfaces passed in a row at most: each is a step of the recursion, though no bounce.
+const MOST_PASSED: u32 = 1000;
 
 /// The recursion's state: one per sample.
 pub(super) struct Walk<'a, P: Probe> {
@@ -27,18 +36,21 @@ pub(super) struct Walk<'a, P: Probe> {
     pub(super) cx: &'a SampleCx<'a>,
     pub(super) probe: &'a mut P,
     pub(super) rays: u64,
+    pub(super) imbalances: Imbalances,
 }
 
 impl<'a, P: Probe> Walk<'a, P> {
     /// The walk of one sample.
     pub(super) fn new(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
-        Self { rules, cx, probe, rays: 0 }
+        Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default() }
     }
 
-    /// Walks the whole tree of an eye ray.
+    /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in.
     pub(super) fn sample(mut self, ray: &PathRay, parent: P::Id, out: &mut Contribution) {
-        out.value = Value::Radiance(self.trace(ray, RayKind::Eye, parent));
+        let ray = PathRay { media: self.cx.scene.start, ..*ray };
+        out.value = Value::Radiance(self.trace(&ray, RayKind::Eye, parent));
         out.rays = self.rays;
+        out.imbalances = self.imbalances;
     }
 
     /// Radiance arriving along a ray.
@@ -62,7 +74,7 @@ impl<'a, P: Probe> Walk<'a, P> {
     }
 
     fn reason_to_stop(&self, ray: &PathRay) -> Option<StopReason> {
-        if ray.depth > self.rules.max_depth {
+        if ray.depth > self.rules.max_depth || ray.passed > MOST_PASSED {
             Some(StopReason::DepthLimit)
         } else if ray.depth > 0 && ray.throughput.max() * ray.siblings <= self.rules.min_contribution {
             Some(StopReason::ContributionBelowCutoff)
@@ -73,7 +85,7 @@ impl<'a, P: Probe> Walk<'a, P> {
 
     fn escape(&mut self, ray: &PathRay, id: P::Id) -> Spectrum {
         let cx = self.cx;
-        let sky = cx.scene.escaped(cx.basis, ray.ray.d);
+        let sky = self.arriving(&ray.media, f32::INFINITY) * cx.scene.escaped(cx.basis, ray.ray.d);
         self.probe.local(id, sky);
         self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
         sky
@@ -81,17 +93,30 @@ impl<'a, P: Probe> Walk<'a, P> {
 
     fn shade(&mut self, ray: &PathRay, hit: &Hit, id: P::Id) -> Spectrum {
         let cx = self.cx;
-        let s = Shading::at(cx, &ray.ray, hit);
+        let mut s = Shading::at(cx, &ray.ray, hit);
         self.probe.surface(id, s.object, hit, &s.surface);
-        let mut radiance = s.emission + self.lamp(ray, &s) + s.ambient(cx);
+        let crossing = self.cross(&ray.media, &mut s);
+        let arriving = self.arriving(&ray.media, hit.t);
+        match crossing.boundary {
+            Boundary::Passed => {
+                let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
+                let child = ray.passing(beyond, arriving, crossing.behind, hit.t);
+                return arriving * self.trace(&child, RayKind::Passing, id);
+            }
+            Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
+            Boundary::Own => {}
+        }
+        let arriving = arriving * self.rules.attenuation(ray, hit.t);
+        s.bsdf.dim(arriving);
+        let mut radiance = arriving * (s.emission + self.lamp(ray, &s)) + s.ambient(cx);
         if self.rules.gloss_rays.is_none() {
             radiance += s.blurred_sky(cx);
         }
         self.probe.local(id, radiance);
         let radiance = self.lights(ray, &s, id, radiance);
-        let radiance = self.branches(ray, &s, id, radiance);
+        let radiance = self.branches(ray, &s, &crossing, (id, radiance));
         match self.rules.gloss_rays {
-            Some(rays) => self.gloss(ray, &s, id, rays.get(), radiance),
+            Some(rays) => self.gloss(ray, &s, &crossing, rays.get(), (id, radiance)),
             None => radiance,
         }
     }

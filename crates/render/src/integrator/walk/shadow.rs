@@ -1,12 +1,29 @@
 //! Shadow rays: what of a light arrives.
-use durer_core::spectrum::Spectrum;
-use durer_model::light::LightSample;
+//!
+//! With transparent shadows a ray goes straight on through what is transparent, as often as need be. However many
+//! surfaces it passes, it counts as one ray.
+use durer_accel::Hit;
+use durer_core::{
+    Id,
+    math::{Point3, Ray},
+    spectrum::Spectrum,
+};
+use durer_model::{bsdf::Straight, light::LightSample};
 
-use super::{super::shading::Shading, Walk, lights::LIGHT_BRANCH};
+use super::{super::shading::Shading, MOST_PASSED, Walk, lights::LIGHT_BRANCH};
 use crate::{
-    PathRay,
+    MediumStack, Object, PathRay,
+    media::Boundary,
     probe::{LightEvent, Probe, RayKind, StopReason},
 };
+
+/// What a light sends through whatever is in between.
+struct Passage {
+    /// The share that arrives.
+    share: Spectrum,
+    /// What kept all of it.
+    blocker: Option<Id<Object>>,
+}
 
 impl<P: Probe> Walk<'_, P> {
     /// Sends the shadow ray; the light that arrives.
@@ -19,30 +36,84 @@ impl<P: Probe> Walk<'_, P> {
         sample: &LightSample,
         id: P::Id,
     ) -> Spectrum {
-        let cx = self.cx;
         let ray = match sample.point {
             Some(point) => s.surface.spawn_to(point, parent.ray.time),
             None => s.surface.spawn(sample.wi, parent.ray.time),
         };
-        let shadow =
-            self.probe.ray(id, &parent.child(ray, weight, LIGHT_BRANCH + light as u32), RayKind::Shadow);
+        let path = parent.child(ray, weight, LIGHT_BRANCH + light as u32);
+        let shadow = self.probe.ray(id, &path, RayKind::Shadow);
         self.rays += 1;
-        let visible = !cx.scene.occluded(cx, &ray, self.probe, shadow);
+        let passage = match self.rules.shadows.straight() {
+            Some(how) => self.passage(&path, sample.point, how, shadow),
+            None => self.free_passage(&path, shadow),
+        };
+        let visible = !passage.share.is_black();
         let event = LightEvent {
             light: light as u32,
             point: sample.point,
             unoccluded: sample.weight,
+            passed: passage.share,
             visible,
-            blocker: if P::RECORDS && !visible { cx.scene.blocker(cx, &ray) } else { None },
+            blocker: passage.blocker,
         };
         self.probe.light(shadow, &event);
         let (arriving, reason) = match visible {
-            true => (sample.weight, StopReason::HitLight),
+            true => (passage.share * sample.weight, StopReason::HitLight),
             false => (Spectrum::BLACK, StopReason::LightOccluded),
         };
         self.probe.local(shadow, arriving);
         self.probe.stop(shadow, reason, Spectrum::BLACK);
         self.probe.result(shadow, arriving);
         arriving
+    }
+
+    /// The way to a light that everything blocks; in a body that absorbs, its length counts all the same.
+    fn free_passage(&mut self, path: &PathRay, shadow: P::Id) -> Passage {
+        let cx = self.cx;
+        let ray = &path.ray;
+        if !cx.scene.occluded(cx, ray, self.probe, shadow) {
+            let length = if ray.t_max.is_finite() { ray.d.length() } else { f32::INFINITY };
+            return Passage { share: self.arriving(&path.media, length), blocker: None };
+        }
+        let blocker = if P::RECORDS { cx.scene.blocker(cx, ray) } else { None };
+        Passage { share: Spectrum::BLACK, blocker }
+    }
+
+    /// The way to a light at `to`, or infinitely far away, through what is transparent.
+    fn passage(&mut self, path: &PathRay, to: Option<Point3>, how: Straight, shadow: P::Id) -> Passage {
+        let cx = self.cx;
+        let mut ray = path.ray;
+        let mut bodies: MediumStack = path.media;
+        let mut share = Spectrum::ONE;
+        for _ in 0..MOST_PASSED {
+            let unit = ray.d.length();
+            let Some(hit) = cx.scene.closest_in_the_way(cx, &ray, self.probe, shadow) else {
+                let length = if to.is_some() { unit } else { f32::INFINITY };
+                return Passage { share: share * self.arriving(&bodies, length), blocker: None };
+            };
+            // Surfaces expect a unit direction.
+            let seen = Ray { d: ray.d / unit, ..ray };
+            let hit = Hit { t: hit.t * unit, ..hit };
+            let mut s = Shading::at(cx, &seen, &hit);
+            let crossing = self.cross(&bodies, &mut s);
+            share *= self.arriving(&bodies, hit.t);
+            match crossing.boundary {
+                Boundary::Passed => {}
+                Boundary::Between(eta) => {
+                    s.bsdf.set_eta(s.wo_local, eta);
+                    share *= s.bsdf.straight(s.wo_local, how);
+                }
+                Boundary::Own => share *= s.bsdf.straight(s.wo_local, how),
+            }
+            if share.is_black() {
+                return Passage { share, blocker: Some(s.object) };
+            }
+            bodies = crossing.behind;
+            ray = match to {
+                Some(point) => s.surface.spawn_to(point, ray.time),
+                None => s.surface.spawn(ray.d, ray.time),
+            };
+        }
+        Passage { share: Spectrum::BLACK, blocker: None }
     }
 }

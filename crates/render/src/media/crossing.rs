@@ -1,0 +1,150 @@
+//! What a ray does to its [`MediumStack`] where it meets a surface.
+//!
+//! Surfaces that touch are one boundary: a ray that meets one of them starts anew behind all of them, so all are found and
+//! counted at once. What counts as touching is what lies between the origins of the rays that leave to the two sides:
+//! [`TOUCHING`] rounding errors on each, as both surfaces may be off by one. Only bodies with priorities touch; the
+//! surfaces of others relate to what lies around them as pbrt has it.
+use std::cell::RefCell;
+
+use durer_accel::{Hit, PrimitiveHit, UserGeometry};
+use durer_core::{
+    Id,
+    math::{Ray, Vector3},
+};
+use durer_model::{Medium, Surface, bsdf::BranchKind};
+
+use super::{Imbalance, MediumStack};
+use crate::{Object, PathRay, Scene};
+
+/// Rounding errors of a point, on each side of a surface, within which others touch it.
+const TOUCHING: f32 = 4.0;
+
+/// What a surface is to a ray, given the bodies that the ray is in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Boundary {
+    /// That of a body without priority, or of none: as its material says.
+    Own,
+    /// Between two media: index of refraction on the far side divided by that on the near side.
+    Between(f32),
+    /// Nothing: both sides are filled by the same.
+    Passed,
+}
+
+/// Where a ray that met a surface and went through is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Crossing {
+    /// What the surface was.
+    pub(crate) boundary: Boundary,
+    /// The bodies that the ray is in behind it.
+    pub(crate) behind: MediumStack,
+}
+
+impl Crossing {
+    /// The bodies that a ray is in which follows `parent` on this side of the surface, or goes through it.
+    pub(crate) fn media(&self, branch: BranchKind, parent: &PathRay) -> MediumStack {
+        match branch {
+            BranchKind::Reflection => parent.media,
+            BranchKind::Transmission => self.behind,
+        }
+    }
+}
+
+/// A surface of a body at the place of a hit.
+#[derive(Clone, Copy)]
+struct Skin {
+    object: Id<Object>,
+    medium: Id<Medium>,
+    is_entered: bool,
+}
+
+impl Scene {
+    /// Crosses the surface of `object` at `surface`, seen from `wo`, with all that touch it. Says what is wrong with the
+    /// account. Where surfaces can touch, `surface` grows an error bound that reaches beyond them.
+    pub(crate) fn cross(
+        &self,
+        (object, surface): (Id<Object>, &mut Surface),
+        (wo, time): (Vector3, f32),
+        before: &MediumStack,
+        mut complain: impl FnMut(Id<Object>, Imbalance),
+    ) -> Crossing {
+        let mut behind = *before;
+        let Some(medium) = self.medium_of(object) else {
+            return Crossing { boundary: Boundary::Own, behind };
+        };
+        let skin = Skin { object, medium, is_entered: surface.is_outside(wo) };
+        if self.media.get(medium).priority.is_none() {
+            let done = if skin.is_entered { behind.enter(medium) } else { behind.leave(medium) };
+            if let Err(imbalance) = done {
+                complain(object, imbalance);
+            }
+            return Crossing { boundary: Boundary::Own, behind };
+        }
+        surface.p_error = surface.p_error * TOUCHING;
+        let mut skins = self.touching(surface, (wo, time), object);
+        skins.push(skin);
+        // In an order that does not depend on the hierarchy. Who enters first: a shared wall is then no imbalance.
+        skins.sort_by_key(|s| (!s.is_entered, s.object.index()));
+        let mut near = *before;
+        for skin in &skins {
+            let done = if skin.is_entered { behind.enter(skin.medium) } else { behind.leave(skin.medium) };
+            if let Err(imbalance) = done {
+                complain(skin.object, imbalance);
+                if imbalance == Imbalance::LeftUnentered {
+                    // It must have been in there, whatever it knew. A full stack was complained about.
+                    let _ = near.enter(skin.medium);
+                }
+            }
+        }
+        let (near, far) = (near.present(&self.media), behind.present(&self.media));
+        let boundary = match near.medium == far.medium {
+            true => Boundary::Passed,
+            false => Boundary::Between(far.eta / near.eta),
+        };
+        Crossing { boundary, behind }
+    }
+
+    /// The surfaces of bodies with priorities that touch this one, but for those of its own object.
+    fn touching(&self, surface: &Surface, (wo, time): (Vector3, f32), object: Id<Object>) -> Vec<Skin> {
+        let (near, far) = (surface.spawn(wo, time).o, surface.spawn(-wo, time).o);
+        let (d, length) = ((far - near).normalize(), (far - near).length());
+        let ray = Ray { t_max: length, time, ..Ray::new(near, d) };
+        let found = Touching { scene: self, ray: &ray, object, skins: RefCell::default() };
+        self.accel.query(&ray).user(&found).closest();
+        found.skins.into_inner()
+    }
+
+    /// The medium behind surfaces of an object.
+    pub(crate) fn medium_of(&self, object: Id<Object>) -> Option<Id<Medium>> {
+        self.media.of_material(self.object(object).material)
+    }
+}
+
+/// Collects what a short ray meets, instead of ending there.
+struct Touching<'a> {
+    scene: &'a Scene,
+    ray: &'a Ray,
+    object: Id<Object>,
+    skins: RefCell<Vec<Skin>>,
+}
+
+impl UserGeometry for Touching<'_> {
+    const FILTERS: bool = true;
+
+    fn intersect(&self, instance: u32, prim: u32, ray: &Ray, t_max: f32) -> Option<PrimitiveHit> {
+        self.scene.intersect_shape(instance, prim, ray, t_max)
+    }
+
+    /// Never: all are to be found. Instances with priorities are always asked for.
+    fn accepts(&self, hit: &Hit) -> bool {
+        let Self { scene, ray, object, skins } = self;
+        let other = scene.resolve(hit).0;
+        let medium = scene.medium_of(other).filter(|&m| scene.media.get(m).priority.is_some());
+        // Where triangles meet, both may be hit: a surface is there once.
+        let is_new = other != *object && skins.borrow().iter().all(|s| s.object != other);
+        if let (Some(medium), true) = (medium, is_new) {
+            let is_entered = scene.surface(ray, hit).1.is_outside(-ray.d);
+            skins.borrow_mut().push(Skin { object: other, medium, is_entered });
+        }
+        false
+    }
+}
