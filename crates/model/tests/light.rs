@@ -7,7 +7,7 @@ use durer_core::{
     math::{Normal3, Point3, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
-use durer_model::light::{LIGHTS, Light, LightCx, LightSample, NOT_YET};
+use durer_model::light::{LIGHTS, Light, LightCx, LightSample, NOT_YET, Track};
 use durer_scene::{Args, Data, Diagnostics, Node, Params, ValueType, find};
 use durer_testkit::{quadrature, random::Random};
 
@@ -195,19 +195,19 @@ fn placing_moves_and_turns_lights() {
     // Turns +z to +y, then moves along x.
     let m = Transform::from_f64(&turn);
     let mut spot = light("spot", Params::new());
-    spot.place(&m);
+    spot.place(&m.into());
     assert!(arriving(&*spot, Point3::new(1.0, 3.0, 0.0)).is_some());
     assert!(arriving(&*spot, Point3::new(1.0, 0.0, 3.0)).is_none());
     let mut sun = light("distant", Params::new());
-    sun.place(&m);
+    sun.place(&m.into());
     let wi = arriving(&*sun, Point3::ZERO).expect("lit").wi;
     assert!((wi - Vector3::new(0.0, -1.0, 0.0)).length() < 1e-6);
     let mut point = light("point", point3(Params::new(), "from", [0.0, 0.0, 2.0]));
-    point.place(&m);
+    point.place(&m.into());
     let at = arriving(&*point, Point3::ZERO).expect("lit").point.expect("near");
     assert!((at - Point3::new(1.0, 2.0, 0.0)).length() < 1e-6);
     let mut sky = light("gradientsky", Params::new().rgb("zenith", [9.0; 3]));
-    sky.place(&Transform::from_f64(&DAffine3::from_rotation_x(PI / 2.0)));
+    sky.place(&Track::still(DAffine3::from_rotation_x(PI / 2.0)));
     assert!(sky.escaped(Basis::Rgb, Vector3::new(0.0, 0.0, 1.0)).mean() > 8.9);
 }
 
@@ -216,7 +216,7 @@ fn every_light_gives_finite_light_everywhere() {
     let mut random = Random::new(11);
     for entry in LIGHTS {
         let mut light = light(entry.schema.name, Params::new());
-        light.place(&Transform::translate(Vector3::new(0.5, -2.0, 1.0)));
+        light.place(&Transform::translate(Vector3::new(0.5, -2.0, 1.0)).into());
         for i in 0..500 {
             let d = random.direction();
             let p = Point3::ZERO + v(d * 10f64.powi(i % 9 - 4));

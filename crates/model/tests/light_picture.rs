@@ -6,10 +6,10 @@ use std::{
 
 use durer_core::{
     glam::{DAffine3, DVec3},
-    math::{Normal3, Transform, Vector3},
+    math::{Normal3, Vector3},
     spectrum::Basis,
 };
-use durer_model::light::{LIGHTS, Light};
+use durer_model::light::{LIGHTS, Light, Track};
 use durer_scene::{
     Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, find,
 };
@@ -245,7 +245,7 @@ fn a_picture_turns_with_its_light() {
     let colours = |x: f64, y: f64| direction(x, y).to_array().map(|c| 1.0 + c);
     let mut sky = light(picture(128, 64, colours), Params::new());
     let turn = DAffine3::from_rotation_x(-PI / 2.0) * DAffine3::from_rotation_z(0.7);
-    sky.place(&Transform::from_f64(&turn));
+    sky.place(&Track::still(turn));
     let mut random = Random::new(8);
     for _ in 0..50 {
         let d = random.direction();

@@ -116,8 +116,12 @@ impl Piece {
     pub(super) fn density(&self, m: &DAffine3, from: DVec3, p: DVec3, n: DVec3) -> f64 {
         match self {
             Self::Sphere { radius, shape } => {
-                let cone = cone(*radius, m, from);
-                cone.map_or_else(|| density_by_area(&**shape, m, from, p, n), |cone| cone.density())
+                let Some(cone) = cone(*radius, m, from) else {
+                    return density_by_area(&**shape, m, from, p, n);
+                };
+                // The far side is hidden by the near one.
+                let is_near = (p - m.translation).dot(from - p) > 0.0;
+                if is_near { cone.density() } else { 0.0 }
             }
             Self::Curved(shape) => density_by_area(&**shape, m, from, p, n),
             Self::Triangle(corners) => triangle_density(corners.map(|p| m.transform_point3(p)), from, p),
