@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
-use durer_render::{film::Tile, integrator::Show};
+use durer_render::{drive::Antialias, film::Tile, integrator::Show};
 use durer_scene::Missing;
 
 /// Wishes; `None` leaves the choice to the scene, then to the defaults.
@@ -21,6 +21,8 @@ pub struct Options {
     pub scale: Option<f32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// Where the samples of a pixel lie.
+    pub antialias: Antialias,
     /// Bounces traced at most.
     pub max_depth: Option<u32>,
     /// Stop when a branch's share in the pixel is at or below this.

@@ -28,6 +28,11 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
 pub(super) fn eye_ray(view: &View, settings: &Settings, pixel: [u32; 2], sampler: &Sampler) -> Ray {
     let jitter = sampler.d2(Dim::Pixel);
     let film = Point2::new(pixel[0] as f32 + jitter.x, pixel[1] as f32 + jitter.y);
+    ray_through(view, settings, film, sampler)
+}
+
+/// The eye ray through a point of the picture, in pixels, at a moment of the shutter interval.
+pub(super) fn ray_through(view: &View, settings: &Settings, film: Point2, sampler: &Sampler) -> Ray {
     let shutter = settings.shutter;
     let time = if shutter.min == shutter.max { shutter.min } else { shutter.at(sampler.d1(Dim::Time)) };
     view.ray(film, time, sampler)

@@ -1,6 +1,7 @@
 //! How a picture is taken.
 use durer_core::{math::Interval, sampling::SamplerKind};
 
+use super::Antialias;
 use crate::film::Tile;
 
 /// Samples, seed, threads, shutter and crop.
@@ -18,6 +19,8 @@ pub struct Settings {
     pub shutter: Interval,
     /// The part of the picture that is rendered; the rest stays black.
     pub crop: Option<Tile>,
+    /// Where the samples of a pixel lie.
+    pub antialias: Antialias,
 }
 
 impl Default for Settings {
@@ -29,6 +32,7 @@ impl Default for Settings {
             threads: 1,
             shutter: Interval::point(0.0),
             crop: None,
+            antialias: Antialias::Supersample,
         }
     }
 }
