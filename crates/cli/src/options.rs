@@ -4,13 +4,14 @@ mod distribution;
 use std::path::PathBuf;
 
 use clap::{
-    Args,
+    Args, ValueEnum,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use durer::{
     Options, Shadows, Show,
     accel::{Engine, Preset},
     compile::{Aperture, Focus, LensOptions},
+    drive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects},
     film::Tile,
     integrator::INTEGRATORS,
     math::Interval,
@@ -97,6 +98,22 @@ pub(crate) struct SceneOptions {
     lenient: bool,
 }
 
+/// The words of `--antialias`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Strategy {
+    /// As many in every pixel, spread over it
+    Supersample,
+    /// At the corners of squares, shared by neighbours, that are split where they differ (Whitted 1980)
+    Adaptive,
+}
+
+/// Something that is done or not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
 /// Size of the picture and samples of its pixels.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Film")]
@@ -113,6 +130,23 @@ pub(crate) struct FilmOptions {
     /// Samples per pixel [default: the scene's, else 64; data pictures 1].
     #[arg(long, alias = "samples", value_name = "N", value_parser = whole(1..=u32::MAX), allow_negative_numbers = true)]
     spp: Option<u32>,
+    /// Where the samples of a pixel lie [default: supersample].
+    #[arg(long, value_name = "HOW", value_enum)]
+    antialias: Option<Strategy>,
+    /// How many times a pixel is split at most, with --antialias adaptive; small objects are looked for so far
+    /// [default: 4].
+    #[arg(long, value_name = "N", value_parser = whole(0..=MAX_SPLITS), allow_negative_numbers = true)]
+    #[arg(requires = "antialias")]
+    aa_depth: Option<u32>,
+    /// A square is split if the largest difference between its corners, where 0 is black and 1 white to the eye,
+    /// times its share of the pixel is larger than this, with --antialias adaptive [default: 1/64].
+    #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
+    #[arg(requires = "antialias")]
+    aa_threshold: Option<f32>,
+    /// Whether squares are split until objects are met that lie between the rays, with --antialias adaptive
+    /// [default: on].
+    #[arg(long, value_name = "WHETHER", value_enum, requires = "antialias")]
+    aa_small_objects: Option<Switch>,
     /// The part to render, in pixels from the upper left corner; the rest stays black.
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop, allow_hyphen_values = true)]
     crop: Option<Tile>,
@@ -184,9 +218,7 @@ impl SceneOptions {
             ..Options::default()
         }
     }
-}
 
-impl SceneOptions {
     fn lens(&self) -> LensOptions {
         let radius = self.aperture.map(Aperture::Radius);
         let distance = self.focus.map(Focus::Distance);
@@ -197,10 +229,25 @@ impl SceneOptions {
     }
 }
 
+impl FilmOptions {
+    fn antialias(&self) -> Antialias {
+        if self.antialias != Some(Strategy::Adaptive) {
+            return Antialias::Supersample;
+        }
+        let usual = Adaptive::default();
+        let is_off = self.aa_small_objects == Some(Switch::Off);
+        Antialias::Adaptive(Adaptive {
+            depth: self.aa_depth.unwrap_or(usual.depth),
+            threshold: self.aa_threshold.unwrap_or(usual.threshold),
+            small_objects: if is_off { SmallObjects::Ignored } else { SmallObjects::Found },
+        })
+    }
+}
+
 impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
-        let FilmOptions { width, height, scale, spp, crop, seed } = self.film;
+        let FilmOptions { width, height, scale, spp, crop, seed, .. } = self.film;
         let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
             self.transport.clone();
         Options {
@@ -210,6 +257,7 @@ impl SampleOptions {
             height,
             scale,
             samples: spp,
+            antialias: self.film.antialias(),
             max_depth,
             min_contribution,
             shadows,
@@ -238,7 +286,18 @@ impl SampleOptions {
             lenient,
         } = &self.scene;
         // A crop changes no sample.
-        let FilmOptions { width, height, scale, spp, crop: _, seed } = &self.film;
+        let FilmOptions {
+            width,
+            height,
+            scale,
+            spp,
+            antialias,
+            aa_depth,
+            aa_threshold,
+            aa_small_objects,
+            crop: _,
+            seed,
+        } = &self.film;
         let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
             &self.transport;
         let mut words = vec![quoted(scene), format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
@@ -257,6 +316,11 @@ impl SampleOptions {
         say("height", height.map(|v| v.to_string()));
         say("scale", scale.map(|v| v.to_string()));
         say("spp", spp.map(|v| v.to_string()));
+        let word = |value: Option<PossibleValue>| value.map(|v| v.get_name().to_owned());
+        say("antialias", word(antialias.and_then(|v| v.to_possible_value())));
+        say("aa-depth", aa_depth.map(|v| v.to_string()));
+        say("aa-threshold", aa_threshold.map(|v| v.to_string()));
+        say("aa-small-objects", word(aa_small_objects.and_then(|v| v.to_possible_value())));
         say("seed", seed.map(|v| v.to_string()));
         say("integrator", integrator.clone());
         say("show", show.map(|v| v.word().to_owned()));

@@ -38,7 +38,7 @@ id (1 is the first object). All are 0 where nothing was hit.
 
 stdout holds the paths of the files, a line each, or with --stats=json an object:
 version 1; durer, scene, integrator, width, height, spp, seed, threads, outputs,
-interrupted, samples, bad_samples, first_bad, imbalances, seconds, rays, stops, tests,
+interrupted, samples, adaptive, bad_samples, first_bad, imbalances, seconds, rays, stops, tests,
 max_depth, build. Within a version keys may be added, none renamed.
 
 Ctrl-C writes the picture so far and exits with 130; a second one exits at once.";
@@ -136,7 +136,7 @@ impl Args {
     fn render(&self, prepared: &Prepared, interrupt: &Interrupt) -> Rendered {
         let view = &prepared.scene.view;
         let pixels = prepared.settings.window(view.width, view.height).area();
-        let bar = Bar::new(pixels * u64::from(prepared.settings.samples), self.talk.quiet);
+        let bar = Bar::new(prepared.job().steps(), self.talk.quiet);
         let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
         let cancel = interrupt.rendering();
         if self.talk.verbose {

@@ -53,6 +53,8 @@ pub(crate) struct Stats<'a> {
     outputs: &'a [String],
     interrupted: bool,
     samples: u64,
+    /// Null unless antialiasing is adaptive.
+    adaptive: Option<Adaptive>,
     bad_samples: u64,
     first_bad: Option<Bad>,
     imbalances: Imbalances<'a>,
@@ -63,6 +65,16 @@ pub(crate) struct Stats<'a> {
     tests: Tests,
     max_depth: u32,
     build: Build,
+}
+
+#[derive(Serialize)]
+struct Adaptive {
+    /// Rays through corners of pixels.
+    corners: u64,
+    /// Squares split, by how often they had been split before.
+    splits: Vec<u64>,
+    /// Rays traced to their first hit in search of small objects; not among the rays counted elsewhere.
+    searches: u64,
 }
 
 #[derive(Serialize)]
@@ -139,6 +151,11 @@ impl<'a> Stats<'a> {
             outputs,
             interrupted: rendered.cancelled,
             samples: rendered.samples,
+            adaptive: rendered.splits.as_ref().map(|s| Adaptive {
+                corners: s.corners,
+                splits: s.by_level.to_vec(),
+                searches: s.searches,
+            }),
             bad_samples: rendered.bad_samples,
             first_bad: rendered.first_bad.map(|b| Bad { pixel: b.pixel, sample: b.sample }),
             imbalances: Imbalances::new(facts),
@@ -177,13 +194,16 @@ impl<'a> Stats<'a> {
     pub(crate) fn summary(&self) -> String {
         let Phases { load, build, render, .. } = self.seconds;
         let [load, build, render] = [load, build, render].map(|s| seconds(Duration::from_secs_f64(s)));
+        let samples = match self.adaptive {
+            None => format!("{} spp", self.spp),
+            Some(_) => format!("{} samples, adaptive", count(self.samples)),
+        };
         let state = if self.interrupted { " (interrupted)" } else { "" };
         format!(
-            "{}: {} x {}, {} spp, {}{state}; load {load}, build {build}, render {render}; {} rays, {:.2} Mrays/s",
+            "{}: {} x {}, {samples}, {}{state}; load {load}, build {build}, render {render}; {} rays, {:.2} Mrays/s",
             self.scene,
             self.width,
             self.height,
-            self.spp,
             self.integrator,
             count(self.rays.all),
             self.rays.per_second / 1e6,
@@ -197,6 +217,13 @@ impl<'a> Stats<'a> {
             let _ = writeln!(text, "  {name:<34} {value:>12}");
         };
         row("samples", count(self.samples));
+        if let Some(adaptive) = &self.adaptive {
+            row("samples at corners of pixels", count(adaptive.corners));
+            for (level, &splits) in adaptive.splits.iter().enumerate().filter(|(_, splits)| **splits > 0) {
+                row(&format!("splits, level {level}"), count(splits));
+            }
+            row("searches for small objects", count(adaptive.searches));
+        }
         row("bad samples", count(self.bad_samples));
         for found in &self.imbalances.objects {
             row(&format!("left unentered, {}", found.object), count(found.rays));

@@ -9,7 +9,7 @@ use std::{
 };
 
 use anyhow::Context;
-use durer::{Prepared, film::Pixel, probe::RayTree};
+use durer::{Prepared, drive::Antialias, film::Pixel, probe::RayTree};
 
 use crate::{
     exit::{Exit, WrongUsage, emit, emit_json, harmless, tell},
@@ -124,7 +124,7 @@ fn check_output(path: &Path) -> anyhow::Result<()> {
 
 impl Args {
     fn check_range(&self, prepared: &Prepared) -> Result<(), WrongUsage> {
-        let (view, samples) = (&prepared.scene.view, prepared.settings.samples);
+        let view = &prepared.scene.view;
         let [x, y] = self.pixel;
         if x >= view.width || y >= view.height {
             let (right, bottom) = (view.width - 1, view.height - 1);
@@ -134,9 +134,19 @@ impl Args {
             );
             return Err(WrongUsage(message));
         }
+        let samples = prepared.job().sample_count(self.pixel);
         if self.sample >= samples {
-            let message =
-                format!("there is no sample {}: a pixel has {samples} (--spp), counted from 0", self.sample);
+            let message = match prepared.settings.antialias {
+                Antialias::Supersample => {
+                    format!(
+                        "there is no sample {}: a pixel has {samples} (--spp), counted from 0",
+                        self.sample
+                    )
+                }
+                Antialias::Adaptive(_) => {
+                    format!("there is no sample {}: this pixel has {samples}, counted from 0", self.sample)
+                }
+            };
             return Err(WrongUsage(message));
         }
         Ok(())

@@ -5,6 +5,7 @@ use durer_accel::{Engine, Preset};
 use durer_core::math::Interval;
 use durer_render::{
     compile::LensOptions,
+    drive::Antialias,
     film::Tile,
     integrator::{Sampling, Shadows, Show},
 };
@@ -42,6 +43,8 @@ pub struct Options {
     pub scale: Option<f32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// Where the samples of a pixel lie.
+    pub antialias: Antialias,
     /// Bounces traced at most.
     pub max_depth: Option<u32>,
     /// Stop when a branch's share in the pixel is at or below this.

@@ -1,12 +1,16 @@
 //! A description and wishes to something that renders.
 use durer_accel::BuildOptions;
-use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
+use durer_core::{
+    math::{Point2, Vector3},
+    sampling::{Sampler, SamplerKind},
+    spectrum::Basis,
+};
 use durer_io::import::Imported;
 use durer_model::filter::Filter;
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
-    drive::{Job, Nesting, Settings},
+    drive::{Antialias, Job, Nesting, Settings},
     film::Tile,
     integrator::{INTEGRATORS, Integrator, Output, Show},
 };
@@ -81,6 +85,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     check_content(desc, &scene, options.nothing, diagnostics)?;
     let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
     filter(desc, &mut scene, integrator.output(), eye.total, diagnostics);
+    check_antialias(options, &scene, &*integrator, diagnostics);
     let settings = Settings {
         samples: eye.total,
         sampler: sampler(desc),
@@ -88,6 +93,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),
         crop: options.crop,
+        antialias: options.antialias,
     };
     Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
 }
@@ -132,6 +138,44 @@ fn has_visible_sky(scene: &Scene) -> bool {
         let d = Vector3::new((radius * angle.cos()) as f32, (radius * angle.sin()) as f32, z as f32);
         Basis::Rgb.to_rgb(scene.escaped(Basis::Rgb, d)).iter().any(|&v| v > 0.0)
     })
+}
+
+/// Says what adaptive antialiasing does not do.
+fn check_antialias(
+    options: &Options,
+    scene: &Scene,
+    integrator: &dyn Integrator,
+    diagnostics: &mut Diagnostics,
+) {
+    if options.antialias == Antialias::Supersample {
+        return;
+    }
+    if let Output::Data(_) = integrator.output() {
+        let message = "data pictures are not antialiased adaptively: their pixels are supersampled";
+        diagnostics.warning(Location::None, message);
+        return;
+    }
+    if options.samples.is_some() {
+        let message =
+            "adaptive antialiasing takes as many samples as it needs: a number per pixel changes nothing";
+        diagnostics.warning(Location::None, message).hint("--aa-depth and --aa-threshold say how many");
+    }
+    if is_blurred(scene) {
+        let message = "adaptive antialiasing looks at each place from one point of the lens, at one moment: \
+                       supersampling suits blurred pictures better";
+        diagnostics.note(Location::None, message);
+    }
+}
+
+/// Whether the camera moves, has a lens, or sees things for a while.
+fn is_blurred(scene: &Scene) -> bool {
+    let view = &scene.view;
+    let film = Point2::new(0.5 * view.width as f32, 0.5 * view.height as f32);
+    let ray = |seed| {
+        let sampler = Sampler::new(SamplerKind::Independent, seed, [0, 0], 0, 1);
+        view.ray(film, view.shutter.min, &sampler)
+    };
+    view.shutter.min != view.shutter.max || (1..4).any(|seed| ray(0) != ray(seed))
 }
 
 /// The word of the integrator that answers to `kind`, or stands in for it.

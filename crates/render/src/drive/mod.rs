@@ -3,16 +3,19 @@
 //! A sample is a pure function of (scene, seed, pixel, index), and the film adds in a fixed order: the picture has the
 //! same bits for any number of threads. Integrators know nothing of this file.
 
+mod adaptive;
+mod crew;
 mod part;
 mod pass;
 mod settings;
 
+pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use part::{PartCount, scattered};
 pub use settings::{Nesting, Settings};
 
 use std::sync::{
     Mutex,
-    atomic::{AtomicBool, AtomicUsize, Ordering},
+    atomic::{AtomicBool, Ordering},
 };
 
 use durer_core::{sampling::Sampler, spectrum::Basis};
@@ -20,7 +23,7 @@ use durer_core::{sampling::Sampler, spectrum::Basis};
 use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
-    integrator::Integrator,
+    integrator::{Integrator, Output},
     probe::{Counters, RayTree},
 };
 
@@ -29,8 +32,8 @@ const TILE: u32 = 32;
 
 /// Someone who watches a render; called from all threads.
 pub trait Progress: Sync {
-    /// Another tile is done.
-    fn advance(&self, samples: u64, rays: u64);
+    /// Another tile is done: so many steps of those that [`Job::steps`] foretells.
+    fn advance(&self, steps: u64, rays: u64);
 }
 
 /// Nobody watches.
@@ -66,6 +69,8 @@ pub struct Rendered {
     pub imbalances: ImbalanceTotals,
     /// True if the picture is not complete.
     pub cancelled: bool,
+    /// What adaptive antialiasing did; `None` if it was not asked for.
+    pub splits: Option<Splits>,
 }
 
 /// Whether statistics are gathered; they cost time.
@@ -82,6 +87,13 @@ impl Gather {
     fn counters(self) -> Option<Counters> {
         (self == Self::Counters).then(Counters::default)
     }
+}
+
+/// Who looks on while a picture is rendered, and who ends it.
+struct Watch<'a> {
+    gather: Gather,
+    progress: &'a dyn Progress,
+    cancel: &'a AtomicBool,
 }
 
 /// The samples taken before the picture is looked at again.
@@ -120,19 +132,58 @@ impl<'a> Job<'a> {
         (PathRay::eye(ray, sampler), weight)
     }
 
+    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it.
+    fn adaptive(&self) -> Option<Adaptive> {
+        match (self.settings.antialias, self.integrator.output()) {
+            (Antialias::Adaptive(how), Output::Radiance) => Some(how),
+            _ => None,
+        }
+    }
+
+    /// Samples of a pixel: [`Settings::samples`], or as many as adaptive antialiasing takes there, which are counted by
+    /// taking them.
+    pub fn sample_count(&self, pixel: [u32; 2]) -> u32 {
+        self.adaptive().map_or(self.settings.samples, |how| adaptive::places(self, &how, pixel).len() as u32)
+    }
+
     /// The ray tree of one sample, made by running it again, watched; and the linear RGB that the film stores of it.
+    /// Of adaptive antialiasing it is the `sample`-th place of the pixel: first its corners, upper left, upper right,
+    /// lower left and lower right; then, for each split, what its square lacks of the middles of its upper and left edges,
+    /// its centre and the middles of its right and lower edges, before the four parts are looked at in the order of the
+    /// corners. An empty tree and black if the pixel has no such sample there.
     pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
         let mut tree = RayTree::default();
         let mut out = Contribution::default();
         let cx = self.cx();
-        self.integrator.record(&cx, self.eye(pixel, sample).0, &mut out, &mut tree);
+        let ray = match self.adaptive() {
+            None => Some(self.eye(pixel, sample).0),
+            Some(how) => adaptive::places(self, &how, pixel)
+                .get(sample as usize)
+                .map(|&place| adaptive::eye(self, place)),
+        };
+        if let Some(ray) = ray {
+            self.integrator.record(&cx, ray, &mut out, &mut tree);
+        }
         (tree, film_value(&cx, &out).unwrap_or([0.0; 3]))
+    }
+
+    /// Steps that a [`Progress`] is told of in all: samples, or of adaptive antialiasing corners and pixels.
+    pub fn steps(&self) -> u64 {
+        let window = self.window();
+        match self.adaptive() {
+            None => window.area() * u64::from(self.settings.samples),
+            Some(_) => adaptive::corners(window).area() + window.area(),
+        }
+    }
+
+    /// The rendered part of the picture.
+    fn window(&self) -> Tile {
+        self.settings.window(self.scene.view.width, self.scene.view.height)
     }
 
     /// Renders until done or until `cancel` is set.
     pub fn render(&self, gather: Gather, progress: &dyn Progress, cancel: &AtomicBool) -> Rendered {
         let view = &self.scene.view;
-        let window = self.settings.window(view.width, view.height);
         let mut rendered = Rendered {
             film: Film::new(view.width, view.height),
             samples: 0,
@@ -142,8 +193,13 @@ impl<'a> Job<'a> {
             first_bad: None,
             imbalances: ImbalanceTotals::default(),
             cancelled: false,
+            splits: None,
         };
-        let tiles = window.squares(TILE);
+        if let Some(how) = self.adaptive() {
+            adaptive::render(self, &how, &Watch { gather, progress, cancel }, &mut rendered);
+            return rendered;
+        }
+        let tiles = self.window().squares(TILE);
         for (first, last) in pass::passes(self.settings.samples) {
             let pass = Pass { samples: first..last, gather, cancel };
             self.pass(&pass, &tiles, &mut rendered, progress);
@@ -160,30 +216,15 @@ impl<'a> Job<'a> {
 
     /// Takes the samples of a range everywhere. The tiles of a pass are disjoint: their order does not matter.
     fn pass(&self, pass: &Pass<'_>, tiles: &[Tile], rendered: &mut Rendered, progress: &dyn Progress) {
-        let next = AtomicUsize::new(0);
         let shared = Mutex::new(rendered);
-        let work = || {
-            let mut pixels = Vec::new();
-            loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(&tile) = tiles.get(index).filter(|_| !pass.is_cancelled()) else {
-                    return;
-                };
-                lock(&shared).film.read(tile, &mut pixels);
-                let done = self.tile(pass, tile, &mut pixels);
-                let mut shared = lock(&shared);
-                shared.film.write(tile, &pixels);
-                shared.take(&done);
-                drop(shared);
-                progress.advance(done.samples, done.rays);
-            }
-        };
-        let threads = self.settings.threads.clamp(1, tiles.len().max(1));
-        std::thread::scope(|scope| {
-            for _ in 1..threads {
-                scope.spawn(work);
-            }
-            work();
+        crew::share_out(tiles, self.settings.threads, pass.cancel, |tile, pixels: &mut Vec<Pixel>| {
+            lock(&shared).film.read(tile, pixels);
+            let done = self.tile(pass, tile, pixels);
+            let mut shared = lock(&shared);
+            shared.film.write(tile, pixels);
+            shared.take(&done);
+            drop(shared);
+            progress.advance(done.samples, done.rays);
         });
     }
 
@@ -199,14 +240,7 @@ impl<'a> Job<'a> {
             for (x, pixel) in (tile.x0..).zip(row) {
                 for sample in pass.samples.clone() {
                     let (ray, weight) = self.eye([x, y], sample);
-                    match &mut done.counters {
-                        Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
-                        None => self.integrator.sample(&cx, ray, &mut out),
-                    }
-                    done.samples += 1;
-                    done.rays += out.rays;
-                    done.imbalances.add(&out.imbalances);
-                    match film_value(&cx, &out) {
+                    match self.take(&cx, ray, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
@@ -215,6 +249,23 @@ impl<'a> Job<'a> {
             }
         }
         done
+    }
+
+    /// Takes a sample and counts it.
+    fn take(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: PathRay,
+        out: &mut Contribution,
+        done: &mut TileDone,
+    ) -> Option<[f32; 3]> {
+        match &mut done.counters {
+            Some(counters) => self.integrator.count(cx, ray, out, counters),
+            None => self.integrator.sample(cx, ray, out),
+        }
+        done.samples += 1;
+        done.rays += out.rays;
+        film_value(cx, out)
     }
 }
 
@@ -239,6 +290,7 @@ struct TileDone {
     bad_samples: u64,
     first_bad: Option<BadSample>,
     imbalances: ImbalanceTotals,
+    splits: Option<Splits>,
 }
 
 impl TileDone {
@@ -258,6 +310,9 @@ impl Rendered {
             all.merge(counters);
         }
         self.first_bad = first(self.first_bad, done.first_bad);
+        if let Some(splits) = &done.splits {
+            self.splits.get_or_insert_default().merge(splits);
+        }
     }
 }
 

@@ -30,6 +30,16 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
 pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Ray, f32) {
     let place = view.filter.sample(sampler.shared_by(nesting.per_place()).d2(Dim::Pixel));
     let film = [0, 1].map(|i| pixel[i] as f32 + 0.5 + place.offset[i]);
+    (ray_through(view, nesting, Point2::new(film[0], film[1]), pixel[1], sampler), place.weight)
+}
+
+/// The eye ray through a point of the picture, in pixels, when the row it lies in is exposed.
+pub(super) fn ray_at(view: &View, nesting: Nesting, film: Point2, sampler: &Sampler) -> Ray {
+    ray_through(view, nesting, film, (film.y as u32).min(view.height.saturating_sub(1)), sampler)
+}
+
+/// The eye ray through a point of the picture, in pixels, when this row is exposed.
+fn ray_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &Sampler) -> Ray {
     let u = match nesting.time {
         0 => 0.5,
         _ if view.shutter.is_instant() => 0.5,
@@ -40,8 +50,7 @@ pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &
         _ if !view.camera.lens().is_open() => Lens::CENTRE,
         _ => sampler.d2(Dim::Lens),
     };
-    let time = view.shutter.moment(u, pixel[1], view.height);
-    (view.ray(Point2::new(film[0], film[1]), lens, time), place.weight)
+    view.ray(film, lens, view.shutter.moment(u, row, view.height))
 }
 
 #[cfg(test)]

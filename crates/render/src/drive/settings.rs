@@ -1,6 +1,7 @@
 //! How a picture is taken.
 use durer_core::sampling::SamplerKind;
 
+use super::Antialias;
 use crate::film::Tile;
 
 /// Samples, seed, threads and crop.
@@ -18,6 +19,8 @@ pub struct Settings {
     pub threads: usize,
     /// The part of the picture that is rendered; the rest stays black.
     pub crop: Option<Tile>,
+    /// Where the samples of a pixel lie.
+    pub antialias: Antialias,
 }
 
 /// How many samples share a place and a moment. Of the `A T L` samples of a pixel `T L` in sequence go through each of its
@@ -54,6 +57,7 @@ impl Default for Settings {
             seed: 0,
             threads: 1,
             crop: None,
+            antialias: Antialias::Supersample,
         }
     }
 }

@@ -1,0 +1,193 @@
+//! The second wave: one pixel, split where its corners differ or something small lies between them.
+use durer_accel::Hit;
+
+use super::{
+    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, spot::Spot, things::Things, value,
+};
+use crate::{
+    Contribution,
+    drive::{BadSample, Job, TileDone},
+    film::Pixel,
+    probe::NoProbe,
+};
+
+/// What is known of a pixel's places; one per worker, used again for every pixel.
+#[derive(Default)]
+pub(super) struct Canvas {
+    /// The pixel's number: values with another one are of pixels before.
+    stamp: u32,
+    values: Vec<(u32, [f32; 3])>,
+    /// First hits, of few places.
+    hits: Vec<([u32; 2], Option<Hit>)>,
+}
+
+impl Canvas {
+    /// Forgets all.
+    fn begin(&mut self, depth: u32) {
+        let side = (1 << depth) + 1;
+        if self.values.len() != side * side || self.stamp == u32::MAX {
+            self.values = vec![(0, [0.0; 3]); side * side];
+            self.stamp = 0;
+        }
+        self.stamp += 1;
+        self.hits.clear();
+    }
+}
+
+/// A pixel that is being split.
+pub(super) struct Square<'a> {
+    job: &'a Job<'a>,
+    how: &'a Adaptive,
+    depth: u32,
+    pixel: [u32; 2],
+    spots: &'a [Spot],
+    things: Option<&'a Things>,
+    canvas: &'a mut Canvas,
+    done: &'a mut TileDone,
+    out: Contribution,
+    /// In the order in which they are counted, as places of the picture.
+    places: Vec<[u32; 2]>,
+    sum: Pixel,
+}
+
+/// A part of the pixel: its upper left corner in places of the pixel, and how often the pixel was split to get it.
+#[derive(Clone, Copy)]
+struct Part {
+    at: [u32; 2],
+    level: u32,
+}
+
+impl Part {
+    fn side(self) -> u32 {
+        GRID >> self.level
+    }
+    /// Upper left, upper right, lower left, lower right.
+    fn corners(self) -> [[u32; 2]; 4] {
+        let ([x, y], s) = (self.at, self.side());
+        [[x, y], [x + s, y], [x, y + s], [x + s, y + s]]
+    }
+    fn quarters(self) -> [Self; 4] {
+        let ([x, y], h, level) = (self.at, self.side() / 2, self.level + 1);
+        [[x, y], [x + h, y], [x, y + h], [x + h, y + h]].map(|at| Self { at, level })
+    }
+    /// What a split adds: above, left, centre, right, below.
+    fn middles(self) -> [[u32; 2]; 5] {
+        let ([x, y], h) = (self.at, self.side() / 2);
+        [[x + h, y], [x, y + h], [x + h, y + h], [x + 2 * h, y + h], [x + h, y + 2 * h]]
+    }
+    /// Of the pixel.
+    fn area(self) -> f32 {
+        let side = self.side() as f32 / GRID as f32;
+        side * side
+    }
+}
+
+impl<'a> Square<'a> {
+    /// A pixel with the small things that may lie in it.
+    pub(super) fn new(
+        job: &'a Job<'a>,
+        how: &'a Adaptive,
+        pixel: [u32; 2],
+        spots: &'a [Spot],
+        canvas: &'a mut Canvas,
+        done: &'a mut TileDone,
+    ) -> Self {
+        let depth = how.depth.min(MAX_SPLITS);
+        canvas.begin(depth);
+        let (out, sum) = (Contribution::default(), Pixel::default());
+        Self { job, how, depth, pixel, spots, things: None, canvas, done, out, places: Vec::new(), sum }
+    }
+
+    /// Says what hits belong to.
+    pub(super) fn seen_by(&mut self, things: Option<&'a Things>) {
+        self.things = things;
+    }
+
+    /// Splits the pixel whose corners have these values.
+    pub(super) fn refine(&mut self, corners: [[f32; 3]; 4]) -> Pixel {
+        let whole = Part { at: [0, 0], level: 0 };
+        for (at, value) in whole.corners().into_iter().zip(corners) {
+            self.note(at, value);
+        }
+        self.part(whole);
+        self.sum
+    }
+
+    /// Splits the pixel, corners and all.
+    pub(super) fn trace_corners(&mut self) {
+        let whole = Part { at: [0, 0], level: 0 };
+        whole.corners().into_iter().for_each(|at| self.trace(at));
+        self.part(whole);
+    }
+
+    /// Where the samples were taken, in the order that [`Job::record`] describes.
+    pub(super) fn places(self) -> Vec<[u32; 2]> {
+        self.places
+    }
+
+    /// Adds a part to the sum.
+    fn part(&mut self, part: Part) {
+        let corners = part.corners().map(|at| self.canvas.values[self.index(at)].1);
+        if part.level == self.depth || !self.must_be_split(part, &corners) {
+            return add_average(&mut self.sum, &corners, part.area());
+        }
+        self.done.splits.get_or_insert_default().by_level[part.level as usize] += 1;
+        part.middles().into_iter().for_each(|at| self.trace(at));
+        part.quarters().into_iter().for_each(|quarter| self.part(quarter));
+    }
+
+    fn must_be_split(&mut self, part: Part, corners: &[[f32; 3]; 4]) -> bool {
+        contrast(corners) * part.area() > self.how.threshold || self.hides_something(part)
+    }
+
+    /// Whether something small may lie in a part that no corner's ray meets, though it is not behind what they meet.
+    fn hides_something(&mut self, part: Part) -> bool {
+        let Some(things) = self.things.filter(|_| !self.spots.is_empty()) else { return false };
+        let scale = 1.0 / GRID as f32;
+        let (at, side) = (part.at.map(|x| x as f32 * scale), part.side() as f32 * scale);
+        let spots = self.spots;
+        spots.iter().filter(|spot| spot.may_hide_in(at, side)).any(|spot| {
+            let hits = part.corners().map(|at| self.hit(at));
+            let is_met = hits.iter().flatten().any(|hit| things.of_hit(hit) == spot.thing);
+            let is_behind = hits.iter().all(|hit| hit.is_some_and(|hit| hit.t < spot.nearest));
+            !is_met && !is_behind
+        })
+    }
+
+    /// What the ray through a place meets first.
+    fn hit(&mut self, at: [u32; 2]) -> Option<Hit> {
+        if let Some((_, hit)) = self.canvas.hits.iter().find(|(known, _)| *known == at) {
+            return *hit;
+        }
+        self.done.splits.get_or_insert_default().searches += 1;
+        let ray = eye(self.job, self.place(at)).ray;
+        let hit = self.job.scene.closest(&self.job.cx(), &ray, &mut NoProbe, ());
+        self.canvas.hits.push((at, hit));
+        hit
+    }
+
+    /// Traces a place, unless that was done.
+    fn trace(&mut self, at: [u32; 2]) {
+        if self.canvas.values[self.index(at)].0 == self.canvas.stamp {
+            return;
+        }
+        let bad = BadSample { pixel: self.pixel, sample: self.places.len() as u32 };
+        let value = value(self.job, self.place(at), &mut self.out, self.done, bad);
+        self.note(at, value);
+    }
+
+    fn note(&mut self, at: [u32; 2], value: [f32; 3]) {
+        let index = self.index(at);
+        self.canvas.values[index] = (self.canvas.stamp, value);
+        self.places.push(self.place(at));
+    }
+
+    fn place(&self, at: [u32; 2]) -> [u32; 2] {
+        [self.pixel[0] * GRID + at[0], self.pixel[1] * GRID + at[1]]
+    }
+
+    fn index(&self, at: [u32; 2]) -> usize {
+        let [x, y] = at.map(|v| (v >> (MAX_SPLITS - self.depth)) as usize);
+        y * ((1 << self.depth) + 1) + x
+    }
+}
