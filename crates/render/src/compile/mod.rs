@@ -120,7 +120,7 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
     };
-    camera::focus(&mut scene, camera.node.at, diagnostics)?;
+    camera::focus(&mut scene, camera::pixel_scale(desc, options), camera.node.at, diagnostics)?;
     Some(scene)
 }
 
