@@ -16,11 +16,23 @@ pub struct Builtin {
 }
 
 /// All of them; the first is the default.
-pub const SCENES: &[Builtin] = &[Builtin {
-    name: "whitted",
-    doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
-    text: include_str!("../scenes/whitted.pbrt"),
-}];
+pub const SCENES: &[Builtin] = &[
+    Builtin {
+        name: "whitted",
+        doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
+        text: include_str!("../scenes/whitted.pbrt"),
+    },
+    Builtin {
+        name: "bokeh",
+        doc: "a brass pawn in focus, lights before and behind it in the shape of the lens's seven blades",
+        text: include_str!("../scenes/bokeh.pbrt"),
+    },
+    Builtin {
+        name: "shutter",
+        doc: "a wheel that turns, balls that fly and bounce and one at rest, while the shutter is open",
+        text: include_str!("../scenes/shutter.pbrt"),
+    },
+];
 
 /// The built-in scene of this name.
 pub fn find(name: &str) -> Option<&'static Builtin> {

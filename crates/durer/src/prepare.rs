@@ -1,10 +1,6 @@
 //! A description and wishes to something that renders.
 use durer_accel::BuildOptions;
-use durer_core::{
-    math::{Point2, Vector3},
-    sampling::{Sampler, SamplerKind},
-    spectrum::Basis,
-};
+use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
 use durer_model::filter::Filter;
 use durer_render::{
@@ -167,15 +163,9 @@ fn check_antialias(
     }
 }
 
-/// Whether the camera moves, has a lens, or sees things for a while.
+/// Whether the camera has a lens or sees things for a while.
 fn is_blurred(scene: &Scene) -> bool {
-    let view = &scene.view;
-    let film = Point2::new(0.5 * view.width as f32, 0.5 * view.height as f32);
-    let ray = |seed| {
-        let sampler = Sampler::new(SamplerKind::Independent, seed, [0, 0], 0, 1);
-        view.ray(film, view.shutter.min, &sampler)
-    };
-    view.shutter.min != view.shutter.max || (1..4).any(|seed| ray(0) != ray(seed))
+    !scene.view.shutter.sees_one_moment() || scene.view.camera.lens().is_open()
 }
 
 /// The word of the integrator that answers to `kind`, or stands in for it.

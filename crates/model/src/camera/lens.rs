@@ -37,7 +37,7 @@ pub(super) const LENS: [ParamSpec; 7] = [
         "focuspixel",
         ParamType::Point2s,
         ParamDefault::Unset,
-        "Focus on what is seen there, in pixels from the upper left corner, instead of at focaldistance.",
+        "Focus on what is seen there, in pixels of Film from the upper left corner, instead of at focaldistance.",
     )
     .unit("px"),
     ParamSpec::new(

@@ -129,11 +129,27 @@ fn shutter(own: &Shutter, moves: bool, options: &CompileOptions) -> Shutter {
     }
 }
 
+/// Pixels of the picture by pixels of the camera's `focuspixel`: a scene speaks of the picture that it asks for, whatever
+/// its size becomes, the options of the one that is taken.
+pub(super) fn pixel_scale(desc: &SceneDesc, options: &CompileOptions) -> [f32; 2] {
+    let by = |size: u32, asked: Option<u32>| asked.map_or(1.0, |asked| size as f32 / asked.max(1) as f32);
+    match options.lens.focus {
+        Some(_) => [1.0; 2],
+        None => [by(options.width, desc.film.width), by(options.height, desc.film.height)],
+    }
+}
+
 /// Focuses on what is seen in the pixel that the camera names, in the middle of the exposure; `None` after a complaint if
-/// nothing is.
-pub(super) fn focus(scene: &mut Scene, at: Location, diagnostics: &mut Diagnostics) -> Option<()> {
+/// nothing is. `scale` is that of [`pixel_scale`].
+pub(super) fn focus(
+    scene: &mut Scene,
+    scale: [f32; 2],
+    at: Location,
+    diagnostics: &mut Diagnostics,
+) -> Option<()> {
     let view = &scene.view;
-    let Some(Point2 { x, y }) = view.camera.lens().focus_pixel() else { return Some(()) };
+    let Some(pixel) = view.camera.lens().focus_pixel() else { return Some(()) };
+    let (x, y) = (pixel.x * scale[0], pixel.y * scale[1]);
     let row = (y.max(0.0) as u32).min(view.height - 1);
     let ray = view.ray(Point2::new(x, y), Lens::CENTRE, view.shutter.moment(0.5, row, view.height));
     let cx = SampleCx { scene, basis: Basis::Rgb };

@@ -126,7 +126,7 @@ pub fn compile(
         start: MediumStack::default(),
         materials,
     };
-    camera::focus(&mut scene, camera.node.at, diagnostics)?;
+    camera::focus(&mut scene, camera::pixel_scale(desc, options), camera.node.at, diagnostics)?;
     scene.start = media::start(&scene);
     Some(scene)
 }

@@ -56,6 +56,87 @@ fn ray_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::CameraPlacement;
+    use durer_core::{
+        glam::DVec3,
+        math::{Interval, Transform},
+        sampling::SamplerKind,
+    };
+    use durer_model::{camera::CAMERAS, filter::Filter};
+    use durer_scene::{Args, Diagnostics, Node, Params, find};
+
+    /// Parallel rays from a lens of radius 1, exposed from 0 to 1 s.
+    fn view() -> View {
+        let node = Node::new("orthographic", Params::new().float("lensradius", 1.0));
+        let mut said = Diagnostics::default();
+        let entry = find(CAMERAS, "camera", &node, &mut said).expect("a registered word");
+        let mut camera = (entry.build)(&mut Args::check(&node, entry.schema, &[], &mut said)).expect("sound");
+        camera.fit(10, 10);
+        View {
+            shutter: camera.shutter().during(Interval::new(0.0, 1.0)),
+            camera,
+            placement: CameraPlacement::Still(Transform::IDENTITY),
+            world_from_render: DVec3::ZERO,
+            width: 10,
+            height: 10,
+            filter: Filter::pixel(),
+        }
+    }
+
+    /// Place in the pixel 3, 4 (in pixels), moment and point on the lens of each sample.
+    fn decisions(samples: u32, nesting: Nesting) -> Vec<([f32; 2], f32, [f32; 2])> {
+        let view = view();
+        let of = |i| {
+            let sampler = Sampler::new(SamplerKind::Stratified, 5, [3, 4], i, samples);
+            let (ray, weight) = eye_ray(&view, nesting, [3, 4], &sampler);
+            assert_eq!(weight, 1.0);
+            // The rays through a place meet at the depth in focus, 1e6 m away, in front of the place.
+            let seen = ray.at((1e6 - ray.o.z) / ray.d.z);
+            let lens =
+                if nesting.lens == 0 { [0.0; 2] } else { view.camera.lens().at(sampler.d2(Dim::Lens)) };
+            let film = [(ray.o.x - lens[0] + 1.0) * 5.0, (1.0 - ray.o.y + lens[1]) * 5.0];
+            assert!((seen.x - ray.o.x).abs() < 1.5);
+            ([film[0] - 3.0, film[1] - 4.0], ray.time, lens)
+        };
+        (0..samples).map(of).collect()
+    }
+
+    fn cells(points: impl Iterator<Item = [f32; 2]>, n: usize) -> Vec<usize> {
+        let mut cells = vec![0; n * n];
+        let cell = |v: f32| ((v * n as f32) as usize).min(n - 1);
+        points.for_each(|[x, y]| cells[cell(x) + n * cell(y)] += 1);
+        cells
+    }
+
+    #[test]
+    fn nested_samples_go_through_every_place_at_every_moment() {
+        // 16 places, 4 moments each, 2 points on the lens each.
+        let all = decisions(128, Nesting { time: 4, lens: 2 });
+        for group in all.chunks(8) {
+            let (place, _, _) = group[0];
+            assert!(group.iter().all(|d| (d.0[0] - place[0]).hypot(d.0[1] - place[1]) < 1e-5));
+            for moment in group.chunks(2) {
+                assert_eq!(moment[0].1, moment[1].1);
+                assert_ne!(moment[0].2, moment[1].2);
+            }
+        }
+        assert_eq!(cells(all.iter().step_by(8).map(|d| d.0), 4), vec![1; 16], "places");
+        let mut moments = [0; 64];
+        all.iter().step_by(2).for_each(|d| moments[(d.1 * 64.0) as usize] += 1);
+        assert_eq!(moments, [1; 64], "moments");
+        // A quarter of the points of the lens lies within half its radius.
+        let inner = all.iter().filter(|d| d.2[0].hypot(d.2[1]) < 0.5).count();
+        assert!((28..=36).contains(&inner), "{inner}");
+    }
+
+    #[test]
+    fn effects_that_are_left_out_stay_in_their_middle() {
+        let frozen = decisions(16, Nesting { time: 0, lens: 0 });
+        assert!(frozen.iter().all(|d| d.1 == 0.5 && d.2 == [0.0; 2]));
+        assert_eq!(cells(frozen.iter().map(|d| d.0), 4), vec![1; 16]);
+        let one_place = decisions(16, Nesting { time: 16, lens: 0 });
+        assert!(one_place.iter().all(|d| (d.0[0] - 0.5).abs() < 1e-5 && (d.0[1] - 0.5).abs() < 1e-5));
+    }
 
     #[test]
     fn passes_are_gapless_and_end_with_blocks() {
