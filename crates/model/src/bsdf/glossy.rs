@@ -20,7 +20,7 @@ use durer_core::{
 use super::{Branch, BranchKind, Drawn, GlossyView, ggx, lobe::mirrored, schlick_rise};
 
 /// Below this `alpha` the lobe is a mirror.
-const SMOOTH: f32 = 1e-3;
+pub const SMOOTH: f32 = 1e-3;
 /// Up to this `alpha` the mirror branch carries everything.
 const SHARP: f32 = 0.02;
 /// From this `alpha` on the mirror branch carries nothing.

@@ -108,6 +108,10 @@ impl Lobe {
             _ => None,
         }
     }
+    /// Whether rays that follow it meet lights with extent, of which no highlight has to tell then.
+    pub(super) fn shows_lights(&self) -> bool {
+        matches!(self, Self::Mirror { .. } | Self::Interface(_) | Self::Gloss(_) | Self::Blurred(_))
+    }
     /// Share of [`Lobe::eval`] that [`super::Bsdf::branches`] does not carry.
     pub(super) fn share_beside_branches(&self) -> f32 {
         match self {

@@ -31,7 +31,7 @@ pub use draw::{Drawn, Draws};
 use fresnel::schlick_rise;
 pub use fresnel::{fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick};
 pub use gloss::Gloss;
-pub use glossy::Glossy;
+pub use glossy::{Glossy, SMOOTH};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use lobe::Lobe;
@@ -116,7 +116,7 @@ impl Bsdf {
     /// The part of [`Bsdf::eval`] that counts for the light of something that rays can meet: each lobe by its share
     /// `keep`, which is asked with the lobe's own answer where rays of its own find the light too (see [`Seen`]).
     pub fn eval_shared(&self, wo: Vector3, wi: Vector3, seen: Seen) -> Spectrum {
-        let mirrors = || self.lobes().any(|lobe| matches!(lobe, Lobe::Mirror { .. } | Lobe::Interface(_)));
+        let mirrors = || self.lobes().any(Lobe::shows_lights);
         let sum = self.lobes().fold(Spectrum::BLACK, |sum, lobe| {
             let share = match (lobe, seen) {
                 (Lobe::Highlight(_), _) if mirrors() => 0.0,

@@ -13,7 +13,7 @@ use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Sc
 use super::{Material, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bsdf, Highlight, Interface, Lobe, Split},
+    bsdf::{Blur, Blurred, Bsdf, Gloss, Highlight, Interface, Lobe, Split},
 };
 
 /// The classic formula.
@@ -28,6 +28,9 @@ pub struct Classic {
     transmission: Option<ColorInput>,
     medium: Medium,
     fresnel: bool,
+    /// Exponents of the blur about mirrored and refracted directions; infinite where they are sharp.
+    gloss: f32,
+    translucency: f32,
 }
 
 const BLACK: [f32; 3] = [0.0; 3];
@@ -64,6 +67,21 @@ impl Kind for Classic {
             ),
             ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
                 .range(0.1, 10.0),
+            ParamSpec::new(
+                "gloss",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Blurs reflections by the cosine to this power about the mirrored direction (Cook 1984), where rays are \
+                 distributed; sharp if left out.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "translucency",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Blurs what is seen through the surface in the same way about the refracted direction.",
+            )
+            .range(0.0, f32::INFINITY),
             Medium::PRIORITY,
             Medium::ABSORPTION,
         ],
@@ -82,12 +100,20 @@ impl Kind for Classic {
                 Medium::read(args, eta)
             },
             fresnel: args.bool("fresnel"),
+            gloss: args.optional_float("gloss").unwrap_or(f32::INFINITY),
+            translucency: args.optional_float("translucency").unwrap_or(f32::INFINITY),
         }))
     }
 }
 
 fn unless_black(input: ColorInput) -> Option<ColorInput> {
     (input != ColorInput::Constant(Color::BLACK)).then_some(input)
+}
+
+impl Classic {
+    fn blur(&self) -> Blur {
+        Blur::Cosine { reflection: self.gloss, transmission: self.translucency }
+    }
 }
 
 impl Material for Classic {
@@ -104,14 +130,21 @@ impl Material for Classic {
             bsdf.add(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
         }
         let (reflection, transmission) = (optional(self.reflection), optional(self.transmission));
-        if !transmission.is_black() {
+        if !transmission.is_black() || (self.fresnel && !reflection.is_black()) {
             let split = match self.fresnel {
                 true => Split::Fresnel { reflection, transmission },
                 false => Split::Constant { reflection, transmission },
             };
-            bsdf.add(Lobe::Interface(Interface { eta: self.medium.eta, split }));
+            let interface = Interface { eta: self.medium.eta, split };
+            bsdf.add(match self.gloss.min(self.translucency).is_finite() {
+                true => Lobe::Blurred(Blurred { interface, blur: self.blur() }),
+                false => Lobe::Interface(interface),
+            });
         } else if !reflection.is_black() {
-            bsdf.add(Lobe::Mirror { weight: reflection });
+            bsdf.add(match self.gloss.is_finite() {
+                true => Lobe::Gloss(Gloss { weight: reflection, exponent: self.gloss }),
+                false => Lobe::Mirror { weight: reflection },
+            });
         }
         bsdf
     }

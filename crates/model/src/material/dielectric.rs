@@ -1,28 +1,29 @@
-//! Smooth glass or water: reflection and refraction, divided by Fresnel's equations.
+//! Glass or water, smooth or frosted: reflection and refraction, divided by Fresnel's equations.
 use durer_core::math::Vector3;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, warn_unsupported};
+use super::{Material, roughness::Roughness, warn_unsupported};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bsdf, Interface, Lobe},
+    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe, SMOOTH},
 };
 
-/// A smooth interface; the outside is where the normal points.
+/// An interface; the outside is where the normal points.
 #[derive(Debug)]
 pub struct Dielectric {
     medium: Medium,
+    roughness: Roughness,
 }
 
-/// Parameters of pbrt's rough dielectric and its surface detail.
-const UNSUPPORTED: &[&str] = &["uroughness", "vroughness", "remaproughness", "displacement", "normalmap"];
+/// Parameters of pbrt's surface detail.
+const UNSUPPORTED: &[&str] = &["displacement", "normalmap"];
 
 impl Kind for Dielectric {
     type Output = Box<dyn Material>;
     const SCHEMA: Schema = Schema {
         name: "dielectric",
         aliases: &["glass"],
-        doc: "Smooth glass, water or the like: reflects and refracts as Fresnel's equations say.",
+        doc: "Glass, water or the like, smooth or frosted: reflects and refracts as Fresnel's equations say.",
         params: &[
             ParamSpec::new(
                 "eta",
@@ -33,10 +34,10 @@ impl Kind for Dielectric {
             .range(0.1, 10.0),
             Medium::PRIORITY,
             Medium::ABSORPTION,
-            ParamSpec::float("roughness", 0.0, "Only 0 is supported yet.").range(0.0, 1.0),
-            ParamSpec::new("uroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
-            ParamSpec::new("vroughness", ParamType::FloatTexture, ParamDefault::Unset, "Not supported yet."),
-            ParamSpec::new("remaproughness", ParamType::Bool, ParamDefault::Unset, "Not supported yet."),
+            Roughness::BOTH,
+            Roughness::U,
+            Roughness::V,
+            Roughness::REMAP,
             ParamSpec::new(
                 "displacement",
                 ParamType::FloatTexture,
@@ -48,17 +49,19 @@ impl Kind for Dielectric {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         warn_unsupported(args, UNSUPPORTED);
-        if args.float("roughness") > 0.0 {
-            args.warning("roughness", "rough dielectrics are not supported yet; smooth is used");
-        }
         let eta = args.index("eta");
-        Some(Box::new(Self { medium: Medium::read(args, eta) }))
+        Some(Box::new(Self { medium: Medium::read(args, eta), roughness: Roughness::read(args) }))
     }
 }
 
 impl Material for Dielectric {
-    fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
-        Bsdf::default().with(Lobe::Interface(Interface::clear(self.medium.eta)))
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+        let interface = Interface::clear(self.medium.eta);
+        let alpha = self.roughness.alpha(cx, &surface.texture_at());
+        Bsdf::default().with(match alpha < SMOOTH {
+            true => Lobe::Interface(interface),
+            false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet { alpha } }),
+        })
     }
     fn medium(&self) -> Option<Medium> {
         Some(self.medium)

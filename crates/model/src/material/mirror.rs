@@ -1,17 +1,18 @@
-//! A perfect mirror of constant reflectance: `R = V - 2 (V . N) N`.
+//! A mirror of constant reflectance, perfect (`R = V - 2 (V . N) N`) or rough.
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamSpec, Schema};
 
-use super::{Material, share, share_input};
+use super::{Material, roughness::Roughness, share, share_input};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Lobe},
+    bsdf::{Bsdf, Glossy, Lobe, SMOOTH},
 };
 
 /// A mirror, the same from both sides and under all angles.
 #[derive(Debug)]
 pub struct Mirror {
     reflectance: ColorInput,
+    roughness: Roughness,
 }
 
 impl Kind for Mirror {
@@ -19,18 +20,32 @@ impl Kind for Mirror {
     const SCHEMA: Schema = Schema {
         name: "mirror",
         aliases: &[],
-        doc: "Perfect mirror: reflects the same share of light under all angles.",
-        params: &[ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.")
-            .range(0.0, f32::INFINITY)],
+        doc: "Mirror, perfect or rough: reflects the same share of light under all angles.",
+        params: &[
+            ParamSpec::color_texture("reflectance", [0.9; 3], "Share of light reflected.")
+                .range(0.0, f32::INFINITY),
+            Roughness::BOTH,
+            Roughness::U,
+            Roughness::V,
+            Roughness::REMAP,
+        ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self { reflectance: share_input(args, "reflectance") }))
+        Some(Box::new(Self {
+            reflectance: share_input(args, "reflectance"),
+            roughness: Roughness::read(args),
+        }))
     }
 }
 
 impl Material for Mirror {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
-        let weight = share(cx, self.reflectance, &surface.texture_at());
-        Bsdf::default().with(Lobe::Mirror { weight })
+        let at = surface.texture_at();
+        let weight = share(cx, self.reflectance, &at);
+        let alpha = self.roughness.alpha(cx, &at);
+        Bsdf::default().with(match alpha < SMOOTH {
+            true => Lobe::Mirror { weight },
+            false => Lobe::Glossy(Glossy { f0: weight, f90: weight, alpha, scale: 1.0 }),
+        })
     }
 }

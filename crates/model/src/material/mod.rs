@@ -9,6 +9,7 @@ mod interface;
 mod mirror;
 mod normal_map;
 mod principled;
+mod roughness;
 
 use std::fmt::Debug;
 
