@@ -153,7 +153,7 @@ pub(super) fn focus(
     let row = (y.max(0.0) as u32).min(view.height - 1);
     let ray = view.ray(Point2::new(x, y), Lens::CENTRE, view.shutter.moment(0.5, row, view.height));
     let cx = SampleCx { scene, basis: Basis::Rgb };
-    let Some(hit) = scene.closest(&cx, &ray, &mut NoProbe, Default::default()) else {
+    let Some(hit) = scene.closest(&cx, &ray, &mut NoProbe, ()) else {
         let message = format!("nothing is seen at {x},{y} that the lens could focus on");
         let size = format!("the picture is {} x {} pixels", view.width, view.height);
         diagnostics.error(at, message).hint(format!("name a pixel that shows a surface; {size}"));
