@@ -135,3 +135,17 @@ fn errors_fall_as_fast_as_theory_says_c5() {
         assert!((found - expected).abs() < tolerance, "{kind}, {what}: N^{found}, expected N^{expected}");
     }
 }
+
+#[test]
+fn scenes_choose_their_sampler() {
+    let of = |sampler: &str| {
+        let text = format!("Sampler {sampler}\nWorldBegin\nShape \"sphere\"\n");
+        let settings = scene(&text, &Options::default()).settings;
+        (settings.sampler, settings.samples)
+    };
+    let cells = "\"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 5";
+    assert_eq!(of(cells), (SamplerKind::Stratified, 15));
+    assert_eq!(of(&format!("{cells} \"bool jitter\" false")), (SamplerKind::Regular, 15));
+    assert_eq!(of("\"independent\""), (SamplerKind::Independent, 16));
+    assert_eq!(of("\"zsobol\""), (SamplerKind::Sobol, 16));
+}

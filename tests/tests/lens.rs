@@ -60,9 +60,9 @@ fn a_dot_is_blurred_to_an_even_disc_f4() {
 
 #[test]
 fn in_focus_the_dot_is_itself() {
-    let sum: f64 = pixels(&dot(4.0, "")).iter().map(|p| p.1).sum();
-    let inner =
-        pixels(&dot(4.0, "")).iter().filter(|([x, y], _)| x.hypot(*y) < DOT - 0.8).all(|p| p.1 == 1.0);
+    let pixels = pixels(&dot(4.0, ""));
+    let sum: f64 = pixels.iter().map(|p| p.1).sum();
+    let inner = pixels.iter().filter(|([x, y], _)| x.hypot(*y) < DOT - 0.8).all(|p| p.1 == 1.0);
     assert!(inner && (sum / (std::f64::consts::PI * DOT * DOT) - 1.0).abs() < 0.02, "{sum}");
 }
 

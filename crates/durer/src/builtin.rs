@@ -24,7 +24,7 @@ pub const SCENES: &[Builtin] = &[
     },
     Builtin {
         name: "bokeh",
-        doc: "a brass pawn in focus, lights before and behind it in the shape of the lens's seven blades",
+        doc: "a brass pawn in focus, lights before and behind it in the shape of the lens's six blades",
         text: include_str!("../scenes/bokeh.pbrt"),
     },
     Builtin {
