@@ -5,7 +5,7 @@ use durer::{
     integrator::INTEGRATORS,
     model::{
         camera::CAMERAS,
-        light::LIGHTS,
+        light::{AREA_LIGHTS, LIGHTS},
         material::MATERIALS,
         shape::SHAPES,
         texture::{COLOR_TEXTURES, FLOAT_TEXTURES},
@@ -58,6 +58,7 @@ fn page() -> String {
         ("Texture (spectrum)", schemas(COLOR_TEXTURES)),
         ("Texture (float)", schemas(FLOAT_TEXTURES)),
         ("LightSource", schemas(LIGHTS)),
+        ("AreaLightSource", schemas(AREA_LIGHTS)),
         ("Camera", schemas(CAMERAS)),
         ("Integrator", schemas(INTEGRATORS)),
     ];
@@ -101,6 +102,7 @@ fn no_two_kinds_of_a_family_answer_to_the_same_word() {
         schemas(COLOR_TEXTURES),
         schemas(FLOAT_TEXTURES),
         schemas(LIGHTS),
+        schemas(AREA_LIGHTS),
         schemas(CAMERAS),
     ] {
         let mut words: Vec<_> = family.iter().flat_map(|s| s.aliases.iter().chain([&s.name])).collect();

@@ -16,11 +16,23 @@ pub struct Builtin {
 }
 
 /// All of them; the first is the default.
-pub const SCENES: &[Builtin] = &[Builtin {
-    name: "whitted",
-    doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
-    text: include_str!("../scenes/whitted.pbrt"),
-}];
+pub const SCENES: &[Builtin] = &[
+    Builtin {
+        name: "whitted",
+        doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
+        text: include_str!("../scenes/whitted.pbrt"),
+    },
+    Builtin {
+        name: "penumbra",
+        doc: "umbra and penumbra in colour: shadows of a red sphere, a green disk and a blue rectangle",
+        text: include_str!("../scenes/penumbra.pbrt"),
+    },
+    Builtin {
+        name: "cornell",
+        doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
+        text: include_str!("../scenes/cornell.pbrt"),
+    },
+];
 
 /// The built-in scene of this name.
 pub fn find(name: &str) -> Option<&'static Builtin> {

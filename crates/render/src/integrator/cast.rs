@@ -3,7 +3,10 @@ use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Integrator, Output, Transport, shading::Shading};
+use super::{
+    Integrator, Output, Transport,
+    shading::{LIGHT_BRANCH, Shading},
+};
 use crate::{
     Contribution, PathRay, SampleCx, Value,
     probe::{Probe, RayKind, StopReason},
@@ -118,7 +121,9 @@ impl Cast {
                 let mut radiance = s.sent_out() + s.ambient(cx);
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
                 for light in lamps.iter().map(|&light| light as usize) {
-                    if let Some((weight, sample)) = s.light(cx, light, &ray.sampler.fork(light as u32)) {
+                    if let Some((weight, sample)) =
+                        s.light(cx, light, &ray.sampler.fork(LIGHT_BRANCH + light as u32))
+                    {
                         radiance += weight * sample.weight;
                     }
                 }
