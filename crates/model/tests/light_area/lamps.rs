@@ -19,7 +19,7 @@ pub(crate) const CX: LightCx = LightCx { basis: Basis::Rgb, time: 0.0 };
 pub(crate) struct Lamp {
     pub(crate) name: &'static str,
     pub(crate) geometry: Geometry,
-    place: DAffine3,
+    pub(crate) place: DAffine3,
 }
 
 pub(crate) fn lamp(name: &'static str, geometry: Geometry, place: DAffine3) -> Lamp {

@@ -20,8 +20,8 @@ use durer_testkit::{quadrature, random::Random};
 use lamps::*;
 
 /// Cells of the grid of directions: its edge, and how many of them a lamp must fill to be measured by it.
-const GRID: usize = 300;
-const FILLED: u32 = 3500;
+const GRID: usize = 180;
+const FILLED: u32 = 2600;
 
 /// Where a lamp that is seen under a slant has directions of nearly no width, densities have no bound. So it is asked how
 /// much of all light lies where they are below a bound, of the density and of the samples.
@@ -53,7 +53,7 @@ fn densities_integrate_to_one_over_all_directions() {
             assert!((integral - expected).abs() < 0.03, "{name} {eye} {integral} {expected} {geometry:?}");
         }
     }
-    assert!(measured > 60, "{measured}");
+    assert!(measured > 40, "{measured}");
 }
 
 #[test]
