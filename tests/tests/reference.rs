@@ -6,7 +6,7 @@ use durer::{
     model::{
         camera::CAMERAS,
         filter::FILTERS,
-        light::LIGHTS,
+        light::{AREA_LIGHTS, LIGHTS},
         material::MATERIALS,
         shape::SHAPES,
         texture::{COLOR_TEXTURES, FLOAT_TEXTURES},
@@ -59,6 +59,7 @@ fn page() -> String {
         ("Texture (spectrum)", schemas(COLOR_TEXTURES)),
         ("Texture (float)", schemas(FLOAT_TEXTURES)),
         ("LightSource", schemas(LIGHTS)),
+        ("AreaLightSource", schemas(AREA_LIGHTS)),
         ("Camera", schemas(CAMERAS)),
         ("PixelFilter", schemas(FILTERS)),
         ("Integrator", schemas(INTEGRATORS)),
@@ -103,6 +104,7 @@ fn no_two_kinds_of_a_family_answer_to_the_same_word() {
         schemas(COLOR_TEXTURES),
         schemas(FLOAT_TEXTURES),
         schemas(LIGHTS),
+        schemas(AREA_LIGHTS),
         schemas(CAMERAS),
         schemas(FILTERS),
     ] {

@@ -32,6 +32,16 @@ pub const SCENES: &[Builtin] = &[
         doc: "a wheel that turns, balls that fly and bounce and one at rest, while the shutter is open",
         text: include_str!("../scenes/shutter.pbrt"),
     },
+    Builtin {
+        name: "penumbra",
+        doc: "umbra and penumbra in colour: shadows of a red sphere, a green disk and a blue rectangle",
+        text: include_str!("../scenes/penumbra.pbrt"),
+    },
+    Builtin {
+        name: "cornell",
+        doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
+        text: include_str!("../scenes/cornell.pbrt"),
+    },
 ];
 
 /// The built-in scene of this name.

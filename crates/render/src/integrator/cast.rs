@@ -4,7 +4,10 @@ use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::Seen;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Integrator, Output, Transport, shading::Shading};
+use super::{
+    Integrator, Output, Transport,
+    shading::{LIGHT_BRANCH, Shading},
+};
 use crate::{
     Contribution, PathRay, SampleCx, Value,
     probe::{Probe, RayKind, StopReason},
@@ -120,7 +123,7 @@ impl Cast {
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
                 for light in lamps.iter().map(|&light| light as usize) {
                     if let Some((weight, sample)) =
-                        s.light(cx, light, &ray.sampler.fork(light as u32), |_| Seen::Branches)
+                        s.light(cx, light, &ray.sampler.fork(LIGHT_BRANCH + light as u32), |_| Seen::Branches)
                     {
                         radiance += weight * sample.weight;
                     }

@@ -14,6 +14,9 @@ use durer_model::{
 
 use crate::{Object, SampleCx};
 
+/// Shadow rays use sampler branches from here on; scattered rays use those below.
+pub(super) const LIGHT_BRANCH: u32 = 1 << 16;
+
 /// A surface point with its lobes.
 pub(super) struct Shading {
     /// What was hit.

@@ -5,8 +5,7 @@ use durer_model::bsdf::Seen;
 use super::{super::shading::Shading, Walk};
 use crate::{PathRay, probe::Probe};
 
-/// Shadow rays use sampler branches from here on; sharp directions use those below.
-pub(super) const LIGHT_BRANCH: u32 = 1 << 16;
+pub(super) use super::super::shading::LIGHT_BRANCH;
 
 impl<P: Probe> Walk<'_, P> {
     /// Adds the light of all lights to `radiance`, in their order: the recorder folds them the same way.
