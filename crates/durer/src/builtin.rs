@@ -16,11 +16,33 @@ pub struct Builtin {
 }
 
 /// All of them; the first is the default.
-pub const SCENES: &[Builtin] = &[Builtin {
-    name: "whitted",
-    doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
-    text: include_str!("../scenes/whitted.pbrt"),
-}];
+pub const SCENES: &[Builtin] = &[
+    Builtin {
+        name: "whitted",
+        doc: "hollow glass ball and mirror ball over a checkerboard, after Whitted's picture of 1980",
+        text: include_str!("../scenes/whitted.pbrt"),
+    },
+    Builtin {
+        name: "snell",
+        doc: "Snell's window: the sky from under water, and the floor mirrored around it",
+        text: include_str!("../scenes/snell.pbrt"),
+    },
+    Builtin {
+        name: "beaker",
+        doc: "water that reaches into the wall of its glass, with ice and a straw",
+        text: include_str!("../scenes/beaker.pbrt"),
+    },
+    Builtin {
+        name: "mirrors",
+        doc: "a ball between two mirrors at 60 degrees, and its five images",
+        text: include_str!("../scenes/mirrors.pbrt"),
+    },
+    Builtin {
+        name: "glass-plate",
+        doc: "one to five plates of glass before a white sky: what is left by all orders of reflection",
+        text: include_str!("../scenes/glass-plate.pbrt"),
+    },
+];
 
 /// The built-in scene of this name.
 pub fn find(name: &str) -> Option<&'static Builtin> {
