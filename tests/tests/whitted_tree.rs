@@ -214,3 +214,86 @@ fn snells_window_ends_at_the_critical_angle_i3() {
     assert!(inside < critical && critical < outside, "{inside} {critical} {outside}");
     assert!(outside - inside < 0.1, "the edge is sharp: {inside} to {outside}");
 }
+
+#[test]
+fn the_zenith_seen_from_under_water_loses_what_is_mirrored_i4() {
+    let water = "LightSource \"infinite\" \"rgb L\" [1 1 1]\nMaterial \"dielectric\" \"float eta\" 1.3333333333\n\
+                 Shape \"plane\" \"point3 point\" [0 0 1] \"vector3 normal\" [0 0 1]\n\
+                 Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n\
+                 Shape \"plane\" \"point3 point\" [0 0 -1] \"vector3 normal\" [0 0 1]\n";
+    let (_, radiance) = tree(&eye("", water));
+    assert!((radiance - 0.979_592).abs() < 1e-5, "{radiance}");
+}
+
+#[test]
+fn in_a_hollow_ball_refractions_nest_within_096_of_its_radius_w7() {
+    let ball = |impact: f64, hollow: bool| {
+        let inner = "ReverseOrientation\nShape \"sphere\" \"string name\" \"inner\" \"float radius\" 0.96\n";
+        let text = format!(
+            "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\n\
+             Sampler \"independent\" \"integer pixelsamples\" 1\n\
+             Camera \"orthographic\" \"float screenwindow\" [-1e-4 1e-4 -1e-4 1e-4]\n\
+             Integrator \"whitted\" \"integer maxdepth\" 8 \"float mincontribution\" 0.001\nWorldBegin\n\
+             LightSource \"infinite\" \"rgb L\" [1 1 1]\nTranslate {impact} 0 5\nMaterial \"dielectric\"\n\
+             Shape \"sphere\" \"string name\" \"outer\"\n{}",
+            if hollow { inner } else { "" }
+        );
+        let prepared = scene(&text, &Options::default());
+        let (tree, _) = prepared.job().record([0, 0], 0);
+        // Refracted at every hit: which surface, and from which side it was met.
+        let mut way = Vec::new();
+        let mut at = Some(0);
+        while let Some(index) = at {
+            let node = &tree.nodes[index];
+            way.extend(node.hit.map(|h| (prepared.scene.object(h.object).name.clone(), h.from_outside)));
+            at = (0..tree.nodes.len()).find(|&i| {
+                tree.nodes[i].parent == Some(index as u32)
+                    && tree.nodes[i].kind == RayKind::Refraction
+                    && tree.nodes[i].stop != Some(StopReason::TirNoRefraction)
+            });
+        }
+        way
+    };
+    let hit = |name: &str, from_outside: bool| (name.to_owned(), from_outside);
+    let solid = [hit("outer", true), hit("outer", false)];
+    // The inner surface is turned: its outside is the glass's inside.
+    let nested = [hit("outer", true), hit("inner", false), hit("inner", true), hit("outer", false)];
+    for impact in [0.0, 0.5, 0.9, 0.955] {
+        assert_eq!(ball(impact, true), nested, "at {impact}");
+        assert_eq!(ball(impact, false), solid, "at {impact}");
+    }
+    // Beyond it the inner surface reflects totally: n sin = 0.97 there.
+    assert_eq!(ball(0.97, true), nested[..2], "the way ends at the inner surface");
+}
+
+#[test]
+fn mirrored_and_refracted_rays_fade_linearly_with_their_length_w8() {
+    // A mirror at 2 that takes half, and behind the eye a wall at -3 that shines with 1: the mirrored ray is 5 m long.
+    let world = "Material \"mirror\" \"rgb reflectance\" [0.5 0.5 0.5]\n\
+        Shape \"plane\" \"point3 point\" [0 0 2] \"vector3 normal\" [0 0 -1]\n\
+        Material \"principled\" \"bool unlit\" true\n\
+        Shape \"plane\" \"point3 point\" [0 0 -3] \"vector3 normal\" [0 0 1]\n";
+    for (rule, expected) in [
+        ("", 0.5),
+        ("\"float attenuationdistance\" 20", 0.375),
+        ("\"float attenuationdistance\" 10", 0.25),
+        ("\"float attenuationdistance\" 5", 0.0),
+        ("\"float attenuationdistance\" 2", 0.0),
+    ] {
+        let (_, radiance) = tree(&eye(rule, world));
+        assert!((radiance - expected).abs() < 1e-6, "{rule}: {radiance}");
+    }
+    // Two refracted rays of 1 m and 5 m, weight 0.8 each, constant coefficients: 0.64 (1 - 1/10) (1 - 5/10) = 0.288.
+    let world = "Material \"classic\" \"rgb diffuse\" [0 0 0] \"rgb transmission\" [.8 .8 .8] \"float eta\" 1.3\n\
+        Shape \"plane\" \"point3 point\" [0 0 2] \"vector3 normal\" [0 0 -1]\n\
+        Shape \"plane\" \"point3 point\" [0 0 3] \"vector3 normal\" [0 0 1]\n\
+        Material \"principled\" \"bool unlit\" true\n\
+        Shape \"plane\" \"point3 point\" [0 0 8] \"vector3 normal\" [0 0 -1]\n";
+    let (_, radiance) = tree(&eye("\"float attenuationdistance\" 10", world));
+    assert!((radiance - 0.288).abs() < 1e-6, "{radiance}");
+    // What leaves the scene keeps all.
+    let sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\nMaterial \"mirror\" \"rgb reflectance\" [0.5 0.5 0.5]\n\
+        Shape \"plane\" \"point3 point\" [0 0 2] \"vector3 normal\" [0 0 -1]\n";
+    let (_, radiance) = tree(&eye("\"float attenuationdistance\" 1", sky));
+    assert!((radiance - 0.5).abs() < 1e-6, "{radiance}");
+}

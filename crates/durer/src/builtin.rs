@@ -23,6 +23,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/whitted.pbrt"),
     },
     Builtin {
+        name: "cook",
+        doc: "five pool balls in motion, after the picture \"1984\" by Thomas Porter",
+        text: include_str!("../scenes/cook.pbrt"),
+    },
+    Builtin {
         name: "bokeh",
         doc: "a brass pawn in focus, lights before and behind it in the shape of the lens's six blades",
         text: include_str!("../scenes/bokeh.pbrt"),
@@ -41,6 +46,26 @@ pub const SCENES: &[Builtin] = &[
         name: "cornell",
         doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
         text: include_str!("../scenes/cornell.pbrt"),
+    },
+    Builtin {
+        name: "snell",
+        doc: "Snell's window: the sky from under water, and the floor mirrored around it",
+        text: include_str!("../scenes/snell.pbrt"),
+    },
+    Builtin {
+        name: "beaker",
+        doc: "water that reaches into the wall of its glass, with ice and a straw",
+        text: include_str!("../scenes/beaker.pbrt"),
+    },
+    Builtin {
+        name: "mirrors",
+        doc: "a ball between two mirrors at 60 degrees, and its five images",
+        text: include_str!("../scenes/mirrors.pbrt"),
+    },
+    Builtin {
+        name: "glass-plate",
+        doc: "one to three plates of glass before a white sky: what is left by all orders of reflection",
+        text: include_str!("../scenes/glass-plate.pbrt"),
     },
 ];
 
