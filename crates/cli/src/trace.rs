@@ -138,7 +138,10 @@ impl Args {
         if self.sample >= samples {
             let message = match prepared.settings.antialias {
                 Antialias::Supersample => {
-                    format!("there is no sample {}: a pixel has {samples} (--spp), counted from 0", self.sample)
+                    format!(
+                        "there is no sample {}: a pixel has {samples} (--spp), counted from 0",
+                        self.sample
+                    )
                 }
                 Antialias::Adaptive(_) => {
                     format!("there is no sample {}: this pixel has {samples}, counted from 0", self.sample)

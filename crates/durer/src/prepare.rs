@@ -145,7 +145,8 @@ fn check_antialias(
         return;
     }
     if options.samples.is_some() {
-        let message = "adaptive antialiasing takes as many samples as it needs: a number per pixel changes nothing";
+        let message =
+            "adaptive antialiasing takes as many samples as it needs: a number per pixel changes nothing";
         diagnostics.warning(Location::None, message).hint("--aa-depth and --aa-threshold say how many");
     }
     if is_blurred(scene) {

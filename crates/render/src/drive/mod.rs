@@ -167,7 +167,7 @@ impl<'a> Job<'a> {
         let window = self.window();
         match self.adaptive() {
             None => window.area() * u64::from(self.settings.samples),
-            Some(_) => adaptive::corners(window).area() + window.area(),
+            Some(_) => adaptive::corners(self, window).area() + window.area(),
         }
     }
 

@@ -2,7 +2,8 @@
 use durer_accel::Hit;
 
 use super::{
-    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, spot::Spot, things::Things, value,
+    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, lattice::Lattice, spot::Spot,
+    things::Things, value,
 };
 use crate::{
     Contribution,
@@ -75,10 +76,9 @@ impl Part {
         let ([x, y], h) = (self.at, self.side() / 2);
         [[x + h, y], [x, y + h], [x + h, y + h], [x + 2 * h, y + h], [x + h, y + 2 * h]]
     }
-    /// Of the pixel.
-    fn area(self) -> f32 {
-        let side = self.side() as f32 / GRID as f32;
-        side * side
+    /// Of its edge, in pixels.
+    fn length(self) -> f32 {
+        self.side() as f32 / GRID as f32
     }
 }
 
@@ -103,21 +103,18 @@ impl<'a> Square<'a> {
         self.things = things;
     }
 
-    /// Splits the pixel whose corners have these values.
-    pub(super) fn refine(&mut self, corners: [[f32; 3]; 4]) -> Pixel {
+    /// Splits the pixel as far as it must be.
+    pub(super) fn refine(&mut self, lattice: &Lattice) -> Pixel {
         let whole = Part { at: [0, 0], level: 0 };
-        for (at, value) in whole.corners().into_iter().zip(corners) {
+        for (at, value) in whole.corners().into_iter().zip(lattice.around(self.pixel)) {
             self.note(at, value);
         }
-        self.part(whole);
+        if self.depth > 0 && lattice.contrast_around(self.pixel) > self.how.neighbour_threshold() {
+            self.split(whole);
+        } else {
+            self.part(whole);
+        }
         self.sum
-    }
-
-    /// Splits the pixel, corners and all.
-    pub(super) fn trace_corners(&mut self) {
-        let whole = Part { at: [0, 0], level: 0 };
-        whole.corners().into_iter().for_each(|at| self.trace(at));
-        self.part(whole);
     }
 
     /// Where the samples were taken, in the order that [`Job::record`] describes.
@@ -129,22 +126,28 @@ impl<'a> Square<'a> {
     fn part(&mut self, part: Part) {
         let corners = part.corners().map(|at| self.canvas.values[self.index(at)].1);
         if part.level == self.depth || !self.must_be_split(part, &corners) {
-            return add_average(&mut self.sum, &corners, part.area());
+            return add_average(&mut self.sum, &corners, part.length() * part.length());
         }
+        self.split(part);
+    }
+
+    fn split(&mut self, part: Part) {
         self.done.splits.get_or_insert_default().by_level[part.level as usize] += 1;
         part.middles().into_iter().for_each(|at| self.trace(at));
         part.quarters().into_iter().for_each(|quarter| self.part(quarter));
     }
 
     fn must_be_split(&mut self, part: Part, corners: &[[f32; 3]; 4]) -> bool {
-        contrast(corners) * part.area() > self.how.threshold || self.hides_something(part)
+        // An edge through the pixel passes through 1 / length squares, whose errors are of length^2 each and of both signs.
+        let error = contrast(corners) * part.length() * part.length().sqrt();
+        error > self.how.threshold || self.hides_something(part)
     }
 
     /// Whether something small may lie in a part that no corner's ray meets, though it is not behind what they meet.
     fn hides_something(&mut self, part: Part) -> bool {
         let Some(things) = self.things.filter(|_| !self.spots.is_empty()) else { return false };
         let scale = 1.0 / GRID as f32;
-        let (at, side) = (part.at.map(|x| x as f32 * scale), part.side() as f32 * scale);
+        let (at, side) = (part.at.map(|x| x as f32 * scale), part.length());
         let spots = self.spots;
         spots.iter().filter(|spot| spot.may_hide_in(at, side)).any(|spot| {
             let hits = part.corners().map(|at| self.hit(at));

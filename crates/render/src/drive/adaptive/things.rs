@@ -59,7 +59,8 @@ impl Things {
         if kept.is_empty() {
             return None;
         }
-        let spheres = kept.iter().map(|(thing, b)| (*thing, b.center(), 0.5 * b.diagonal().length())).collect();
+        let spheres =
+            kept.iter().map(|(thing, b)| (*thing, b.center(), 0.5 * b.diagonal().length())).collect();
         let mut builder = AccelBuilder::new(BuildOptions::default());
         let geometry = builder.user(kept.into_iter().map(|(_, b)| b).collect()).ok()?;
         builder.instance(geometry, Placement::Identity).ok()?;
@@ -76,11 +77,15 @@ impl Things {
     fn near(&self, job: &Job<'_>, tile: Tile) -> Vec<u32> {
         let cone = Cone::around(job, tile);
         let mut found = Vec::new();
-        self.accel.near_misses(&cone.axis, |t| cone.radius(t), |miss| {
-            if miss.radius <= LARGEST * cone.pixel(miss.t) {
-                found.push(miss.prim);
-            }
-        });
+        self.accel.near_misses(
+            &cone.axis,
+            |t| cone.radius(t),
+            |miss| {
+                if miss.radius <= LARGEST * cone.pixel(miss.t) {
+                    found.push(miss.prim);
+                }
+            },
+        );
         found
     }
 }
