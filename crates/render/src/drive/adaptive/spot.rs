@@ -30,7 +30,7 @@ impl Spot {
         // to = u x + v y, by the products with x and y.
         let (xx, xy, yy) = (x.dot(x), x.dot(y), y.dot(y));
         let determinant = xx * yy - xy * xy;
-        if !(determinant > 0.0) {
+        if determinant.partial_cmp(&0.0).is_none_or(std::cmp::Ordering::is_le) {
             return None;
         }
         let (tx, ty) = (to.dot(x), to.dot(y));
