@@ -23,9 +23,11 @@ Tasks of the durer project.
       Checks that the tools are there, then runs: formatting, lints, all tests, documentation, release build.
       --quick leaves out lints, documentation and the release build.
 
-  cargo xtask bench render [--json] [--runs N]
+  cargo xtask bench render [--json] [--runs N] [--quality]
       Renders benches/povray_spheres.pbrt at 1280 x 960 with 2 threads N times (default 5), in turns with POV-Ray on
-      the twin scene if `povray` is installed; prints each run, medians and ratios, with --json as JSON.
+      the twin scene if `povray` is installed, without antialiasing and adaptively (povray +A0.3); prints each run,
+      medians and ratios, with --json as JSON. --quality adds how far the antialiased pictures are from converged ones
+      of the same program.
 
   cargo xtask bench kernel [--json] [--quick] [--runs N] [--scenes a,b] [--isa avx512,avx2,portable]
       Traces the same rays with our kernel, Embree 4 and obvhs in turns and prints how much faster ours is, with --json as

@@ -29,7 +29,11 @@ Examples:
 
 Give the options of the render whose sample you want: the size and --spp decide
 where in the pixel a sample lies. With --spp 1 the last line, `pixel R G B`, has
-the very bits of that pixel in `durer render --spp 1 -o x.exr`.
+the very bits of that pixel in `durer render --spp 1 -o x.exr`. With --antialias
+adaptive the samples are, in this order: the pixel's corners (upper left, upper
+right, lower left, lower right), then for each split what is new of the middles
+of its upper and left edges, its centre and the middles of its right and lower
+edges; a part that is split no further may have one more inside.
 
 JSON: an object with version 1; scene, integrator, width, height, pixel, sample,
 rgb and nodes, parents before children. A node has id, parent (null for the eye

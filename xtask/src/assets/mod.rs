@@ -1,7 +1,7 @@
 //! `cargo xtask assets`: every model of the test files through the program, into a page, thumbnails and contact sheets.
 mod corpus;
 mod page;
-mod picture;
+pub(crate) mod picture;
 mod sheet;
 mod trial;
 

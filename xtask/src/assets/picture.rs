@@ -11,10 +11,10 @@ use png::{BitDepth, ColorType, Compression, Decoder, Encoder};
 
 /// sRGB pixels, rows from top to bottom.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Picture {
+pub(crate) struct Picture {
     pub(super) width: u32,
     pub(super) height: u32,
-    pub(super) rgb: Vec<[u8; 3]>,
+    pub(crate) rgb: Vec<[u8; 3]>,
 }
 
 impl Picture {
@@ -24,7 +24,7 @@ impl Picture {
     }
 
     /// A PNG file as durer writes them.
-    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
         let shown = path.display();
         let file = File::open(path).with_context(|| format!("{shown} cannot be opened"))?;
         let mut reader = Decoder::new(BufReader::new(file)).read_info()?;

@@ -4,13 +4,22 @@ use std::{path::Path, process::Command};
 use anyhow::Context;
 use serde_json::Value;
 
-use super::{HEIGHT, Run, THREADS, WIDTH};
+use super::{HEIGHT, Mode, Run, THREADS, WIDTH};
 use crate::measure::measure;
 
-pub(super) fn render(program: &Path, scene: &Path, folder: &Path) -> anyhow::Result<Run> {
+/// The file's name.
+pub(super) const PICTURE: &str = "durer.png";
+
+/// Leaves [`PICTURE`] in the folder.
+pub(super) fn render(program: &Path, scene: &Path, folder: &Path, mode: Mode) -> anyhow::Result<Run> {
     let mut command = Command::new(program);
     command.arg("render").arg(scene).current_dir(folder);
-    command.args(["-o", "durer.png", "--spp", "1", "--stats=json", "--quiet"]);
+    command.args(["-o", PICTURE, "--stats=json", "--quiet"]);
+    command.args(match mode {
+        Mode::Plain => ["--spp", "1"],
+        Mode::Antialiased => ["--antialias", "adaptive"],
+        Mode::Converged => ["--spp", "256"],
+    });
     command.args(["--width", &WIDTH.to_string(), "--height", &HEIGHT.to_string()]);
     command.args(["--threads", &THREADS.to_string()]);
     let measured = measure(&mut command)?;

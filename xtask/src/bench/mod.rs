@@ -1,11 +1,16 @@
 //! `cargo xtask bench render`: durer and POV-Ray draw the same scene in turns.
 //!
+//! Twice: without antialiasing, and with POV-Ray's `+A0.3` beside our `--antialias adaptive`. With `--quality` it says
+//! first how good these are: by the root of the mean squared difference of code values, as shares of 255, from a
+//! converged picture of the same program, as the programs' pictures differ by a little more than noise.
+//!
 //! In turns, so that what else the machine does hits both; the medians are what to quote. durer counts its rays while
 //! it is timed, as POV-Ray does.
 mod durer;
 mod embree;
 pub(crate) mod kernel;
 mod povray;
+mod quality;
 mod report;
 
 use std::fs;
@@ -25,16 +30,29 @@ const THREADS: u32 = 2;
 pub(crate) struct Options {
     json: bool,
     runs: usize,
+    quality: bool,
+}
+
+/// How a picture is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// One sample per pixel.
+    Plain,
+    /// More where it shows.
+    Antialiased,
+    /// So many that more would change nothing.
+    Converged,
 }
 
 impl Options {
     /// From the words after `bench render`.
     pub(crate) fn parse(words: &[&str]) -> anyhow::Result<Self> {
-        let mut options = Self { json: false, runs: 5 };
+        let mut options = Self { json: false, runs: 5, quality: false };
         let mut words = words.iter();
         while let Some(word) = words.next() {
             match *word {
                 "--json" => options.json = true,
+                "--quality" => options.quality = true,
                 "--runs" => {
                     let count = words.next().and_then(|n| n.parse().ok()).filter(|n| *n > 0);
                     options.runs = count.context("--runs wants a number of at least 1")?;
@@ -97,15 +115,41 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     if !with_povray {
         eprintln!("povray is not installed: durer runs alone (on Debian: apt-get install povray)");
     }
-    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-    for number in 1..=options.runs {
-        eprintln!("==> run {number} of {}", options.runs);
-        ours.push(durer::render(&program, &scenes.join("povray_spheres.pbrt"), &folder)?);
+    let our_run = |mode| durer::render(&program, &scenes.join("povray_spheres.pbrt"), &folder, mode);
+    let their_run = |mode| povray::render(&scenes.join("povray_spheres.pov"), &folder, mode);
+    let mut rmse = Vec::new();
+    if options.quality {
+        eprintln!("==> quality");
+        rmse.push(quality::rmse(&folder.join(durer::PICTURE), our_run)?);
         if with_povray {
-            theirs.push(povray::render(&scenes.join("povray_spheres.pov"), &folder)?);
+            rmse.push(quality::rmse(&folder.join(povray::PICTURE), their_run)?);
         }
     }
-    report::print(&ours, &theirs, options.json)
+    let mut comparisons = [Comparison::of(Mode::Plain), Comparison::of(Mode::Antialiased)];
+    for number in 1..=options.runs {
+        eprintln!("==> run {number} of {}", options.runs);
+        for comparison in &mut comparisons {
+            comparison.ours.push(our_run(comparison.mode)?);
+            if with_povray {
+                comparison.theirs.push(their_run(comparison.mode)?);
+            }
+        }
+    }
+    report::print(&comparisons, &rmse, options.json)
+}
+
+/// The runs of both programs that are held against each other.
+pub(super) struct Comparison {
+    mode: Mode,
+    ours: Vec<Run>,
+    /// Empty where POV-Ray is not installed.
+    theirs: Vec<Run>,
+}
+
+impl Comparison {
+    fn of(mode: Mode) -> Self {
+        Self { mode, ours: Vec::new(), theirs: Vec::new() }
+    }
 }
 
 #[cfg(test)]
@@ -122,7 +166,7 @@ mod tests {
     #[test]
     fn options_are_read() {
         let options = Options::parse(&["--runs", "3", "--json"]).expect("good options");
-        assert!(options.json && options.runs == 3);
+        assert!(options.json && options.runs == 3 && !options.quality);
         assert!(Options::parse(&["--runs", "0"]).is_err() && Options::parse(&["--runs"]).is_err());
         assert!(Options::parse(&["--fast"]).is_err());
     }

@@ -1,20 +1,49 @@
 //! The figures as a table or as JSON.
 use serde_json::{Value, json};
 
-use super::{HEIGHT, Run, THREADS, WIDTH};
+use super::{Comparison, HEIGHT, Mode, Run, THREADS, WIDTH};
 
-/// Prints them on stdout; `theirs` is empty where POV-Ray is not installed.
-pub(super) fn print(ours: &[Run], theirs: &[Run], as_json: bool) -> anyhow::Result<()> {
+/// Prints them on stdout; `rmse` holds none, ours, or ours and theirs.
+pub(super) fn print(comparisons: &[Comparison], rmse: &[f64], as_json: bool) -> anyhow::Result<()> {
     if as_json {
-        println!("{}", serde_json::to_string_pretty(&as_value(ours, theirs))?);
-    } else {
-        print!("{}", as_table(ours, theirs));
+        println!("{}", serde_json::to_string_pretty(&as_values(comparisons, rmse))?);
+        return Ok(());
+    }
+    for Comparison { mode, ours, theirs } in comparisons {
+        println!("{}", as_table(title(*mode), ours, theirs));
+    }
+    for (name, rmse) in ["durer", "povray"].iter().zip(rmse) {
+        println!("{name}, antialiased: RMSE {rmse:.5} to its own converged picture");
     }
     Ok(())
 }
 
-fn as_table(ours: &[Run], theirs: &[Run]) -> String {
-    let mut text = format!("povray_spheres, {WIDTH} x {HEIGHT}, one sample per pixel, {THREADS} threads\n\n");
+fn title(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Plain => "one sample per pixel",
+        Mode::Antialiased => "durer --antialias adaptive, povray +A0.3",
+        Mode::Converged => "converged",
+    }
+}
+
+fn as_values(comparisons: &[Comparison], rmse: &[f64]) -> Value {
+    let mut all = json!({
+        "version": 1, "scene": "povray_spheres", "width": WIDTH, "height": HEIGHT, "spp": 1, "threads": THREADS,
+        "rmse": { "durer": rmse.first(), "povray": rmse.get(1) },
+    });
+    for Comparison { mode, ours, theirs } in comparisons {
+        let value = as_value(ours, theirs);
+        // One sample per pixel was the only mode once.
+        match (*mode, &mut all, value) {
+            (Mode::Plain, Value::Object(all), Value::Object(value)) => all.extend(value),
+            (_, all, value) => all["antialiased"] = value,
+        }
+    }
+    all
+}
+
+fn as_table(title: &str, ours: &[Run], theirs: &[Run]) -> String {
+    let mut text = format!("povray_spheres, {WIDTH} x {HEIGHT}, {title}, {THREADS} threads\n\n");
     let heads = ["wall s", "user s", "trace s", "rays", "shadow tests"];
     text.push_str(&line("", &heads.map(str::to_owned)));
     for (name, runs) in [("durer", ours), ("povray", theirs)] {
@@ -73,7 +102,6 @@ fn as_value(ours: &[Run], theirs: &[Run]) -> Value {
         _ => ratios(ours, theirs).into_iter().map(|(name, ratio)| (name.to_owned(), json!(ratio))).collect(),
     };
     json!({
-        "version": 1, "scene": "povray_spheres", "width": WIDTH, "height": HEIGHT, "spp": 1, "threads": THREADS,
         "durer": program(ours), "povray": program(theirs), "durer_by_povray": ratios,
     })
 }
@@ -92,13 +120,25 @@ mod tests {
         assert_eq!(value["durer_by_povray"]["user"], Value::Null);
         assert_eq!(value["durer_by_povray"]["shadow_tests"], 1.0);
         assert!(
-            as_table(&[RUN], &[slower]).lines().last().is_some_and(|line| line.starts_with("durer / povray"))
+            as_table("plain", &[RUN], &[slower])
+                .lines()
+                .last()
+                .is_some_and(|line| line.starts_with("durer / povray"))
         );
+    }
+
+    #[test]
+    fn the_plain_comparison_is_where_it_was() {
+        let of = |mode| Comparison { mode, ours: vec![RUN], theirs: Vec::new() };
+        let value = as_values(&[of(Mode::Plain), of(Mode::Antialiased)], &[0.25]);
+        assert_eq!(value["durer"]["median"]["rays"], 100);
+        assert_eq!(value["antialiased"]["durer"]["median"]["rays"], 100);
+        assert_eq!((&value["rmse"]["durer"], &value["rmse"]["povray"]), (&json!(0.25), &Value::Null));
     }
 
     #[test]
     fn without_povray_durer_stands_alone() {
         assert_eq!(as_value(&[RUN], &[])["povray"], Value::Null);
-        assert!(!as_table(&[RUN], &[]).contains("povray,"));
+        assert!(!as_table("plain", &[RUN], &[]).contains("povray,"));
     }
 }

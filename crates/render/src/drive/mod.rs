@@ -150,7 +150,7 @@ impl<'a> Job<'a> {
     /// Of adaptive antialiasing it is the `sample`-th place of the pixel: first its corners, upper left, upper right,
     /// lower left and lower right; then, for each split, what its square lacks of the middles of its upper and left edges,
     /// its centre and the middles of its right and lower edges, before the four parts are looked at in the order of the
-    /// corners. An empty tree and black if the pixel has no such sample there.
+    /// corners; a part that is not split may have one more, somewhere inside. An empty tree and black if the pixel has no such sample there.
     pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
         let mut tree = RayTree::default();
         let mut out = Contribution::default();
@@ -172,7 +172,7 @@ impl<'a> Job<'a> {
         let window = self.window();
         match self.adaptive() {
             None => window.area() * u64::from(self.settings.samples),
-            Some(_) => adaptive::corners(window).area() + window.area(),
+            Some(_) => adaptive::corners(self, window).area() + window.area(),
         }
     }
 

@@ -11,10 +11,15 @@ fn seen(light: f32) -> f32 {
 /// NaN is none.
 pub(super) fn contrast(corners: &[[f32; 3]; 4]) -> f32 {
     let [a, b, c, d] = corners;
+    let least = std::array::from_fn(|i| a[i].min(b[i]).min(c[i].min(d[i])));
+    let largest = std::array::from_fn(|i| a[i].max(b[i]).max(c[i].max(d[i])));
+    spread(&least, &largest)
+}
+
+/// The largest difference in a channel between the least and the largest values of a set of colours.
+pub(super) fn spread(least: &[f32; 3], largest: &[f32; 3]) -> f32 {
     let mut most = 0.0f32;
-    for i in 0..3 {
-        let least = a[i].min(b[i]).min(c[i].min(d[i]));
-        let largest = a[i].max(b[i]).max(c[i].max(d[i]));
+    for (&least, &largest) in least.iter().zip(largest) {
         // PERF: most squares are of one colour (bench render).
         if least < largest {
             most = most.max(seen(largest) - seen(least));

@@ -1,18 +1,29 @@
 //! The first wave: the corners of all pixels, each traced once.
-use std::sync::Mutex;
+use std::sync::{
+    Mutex,
+    atomic::{AtomicBool, Ordering},
+};
 
-use super::{GRID, value};
+use super::{GRID, contrast::spread, value};
 use crate::{
     Contribution,
-    drive::{BadSample, Job, Rendered, Splits, TILE, TileDone, Watch, crew, lock},
+    drive::{BadSample, Gather, Job, Rendered, Splits, TILE, TileDone, Watch, crew, lock},
     film::Tile,
 };
 
-/// The corners of the pixels of a window, as a rectangle: one more than pixels along each edge.
-pub(in crate::drive) fn corners(window: Tile) -> Tile {
-    // Of no pixels there are no corners.
-    let more = u32::from(window.area() > 0);
-    Tile { x1: window.x1 + more, y1: window.y1 + more, ..window }
+/// The corners of the pixels of a window and of the pixels around it, as a rectangle. Of a whole picture it is one more
+/// than pixels along each edge.
+pub(in crate::drive) fn corners(job: &Job<'_>, window: Tile) -> Tile {
+    if window.area() == 0 {
+        return window;
+    }
+    let view = &job.scene.view;
+    Tile {
+        x0: window.x0.saturating_sub(1),
+        y0: window.y0.saturating_sub(1),
+        x1: (window.x1 + 2).min(view.width + 1),
+        y1: (window.y1 + 2).min(view.height + 1),
+    }
 }
 
 /// Linear RGB at the corners of pixels; NaN where there is none.
@@ -24,7 +35,7 @@ pub(super) struct Lattice {
 impl Lattice {
     /// Traces the corners of all pixels of a window.
     pub(super) fn trace(job: &Job<'_>, watch: &Watch<'_>, window: Tile, rendered: &mut Rendered) -> Self {
-        let corners = corners(window);
+        let corners = corners(job, window);
         let lattice = Self { corners, values: vec![[f32::NAN; 3]; corners.area() as usize] };
         let shared = Mutex::new((lattice, rendered));
         crew::share_out(
@@ -32,7 +43,7 @@ impl Lattice {
             job.settings.threads,
             watch.cancel,
             |tile, values: &mut Vec<_>| {
-                let done = trace_tile(job, watch, window, tile, values);
+                let done = trace_tile(job, watch, tile, values);
                 let mut shared = lock(&shared);
                 shared.0.write(tile, values);
                 shared.1.take(&done);
@@ -41,6 +52,15 @@ impl Lattice {
             },
         );
         shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).0
+    }
+
+    /// Traces the corners around one pixel.
+    pub(super) fn of_pixel(job: &Job<'_>, [x, y]: [u32; 2]) -> Self {
+        let corners = corners(job, Tile { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+        let watch = Watch { gather: Gather::Rays, progress: &(), cancel: &AtomicBool::new(false) };
+        let mut values = Vec::new();
+        trace_tile(job, &watch, corners, &mut values);
+        Self { corners, values }
     }
 
     fn write(&mut self, tile: Tile, values: &[[f32; 3]]) {
@@ -62,25 +82,36 @@ impl Lattice {
         let (upper, lower) = (self.index([x, y]), self.index([x, y + 1]));
         [upper, upper + 1, lower, lower + 1].map(|i| self.values[i])
     }
+
+    /// The largest difference between any corners of a pixel and of those around it.
+    pub(super) fn contrast_around(&self, [x, y]: [u32; 2]) -> f32 {
+        let c = self.corners;
+        let columns = x.saturating_sub(1).max(c.x0)..(x + 3).min(c.x1);
+        let (mut least, mut largest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for y in y.saturating_sub(1).max(c.y0)..(y + 3).min(c.y1) {
+            let start = self.index([columns.start, y]);
+            for value in &self.values[start..start + columns.len()] {
+                for i in 0..3 {
+                    least[i] = least[i].min(value[i]);
+                    largest[i] = largest[i].max(value[i]);
+                }
+            }
+        }
+        spread(&least, &largest)
+    }
 }
 
-fn trace_tile(
-    job: &Job<'_>,
-    watch: &Watch<'_>,
-    window: Tile,
-    tile: Tile,
-    values: &mut Vec<[f32; 3]>,
-) -> TileDone {
+fn trace_tile(job: &Job<'_>, watch: &Watch<'_>, tile: Tile, values: &mut Vec<[f32; 3]>) -> TileDone {
     let mut done = TileDone { counters: watch.gather.counters(), ..TileDone::default() };
-    let mut out = Contribution::default();
+    let (view, mut out) = (&job.scene.view, Contribution::default());
     values.clear();
     for y in tile.y0..tile.y1 {
-        if watch.cancel.load(std::sync::atomic::Ordering::Relaxed) {
+        if watch.cancel.load(Ordering::Relaxed) {
             break;
         }
         for x in tile.x0..tile.x1 {
             // A corner that is bad is told as that of the pixel to its lower right, if there is one.
-            let pixel = [x.min(window.x1 - 1), y.min(window.y1 - 1)];
+            let pixel = [x.min(view.width - 1), y.min(view.height - 1)];
             let bad = BadSample { pixel, sample: (x - pixel[0]) + 2 * (y - pixel[1]) };
             values.push(value(job, [x * GRID, y * GRID], &mut out, &mut done, bad));
         }

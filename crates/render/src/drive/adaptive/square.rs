@@ -2,7 +2,8 @@
 use durer_accel::Hit;
 
 use super::{
-    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, spot::Spot, things::Things, value,
+    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, lattice::Lattice, spot::Spot,
+    things::Things, value,
 };
 use crate::{
     Contribution,
@@ -10,6 +11,9 @@ use crate::{
     film::Pixel,
     probe::NoProbe,
 };
+
+/// Parts that differ by more than this share of the threshold are not finished with the average of their corners.
+const FINISHED: f32 = 0.25;
 
 /// What is known of a pixel's places; one per worker, used again for every pixel.
 #[derive(Default)]
@@ -75,10 +79,9 @@ impl Part {
         let ([x, y], h) = (self.at, self.side() / 2);
         [[x + h, y], [x, y + h], [x + h, y + h], [x + 2 * h, y + h], [x + h, y + 2 * h]]
     }
-    /// Of the pixel.
-    fn area(self) -> f32 {
-        let side = self.side() as f32 / GRID as f32;
-        side * side
+    /// Of its edge, in pixels.
+    fn length(self) -> f32 {
+        self.side() as f32 / GRID as f32
     }
 }
 
@@ -103,21 +106,18 @@ impl<'a> Square<'a> {
         self.things = things;
     }
 
-    /// Splits the pixel whose corners have these values.
-    pub(super) fn refine(&mut self, corners: [[f32; 3]; 4]) -> Pixel {
+    /// Splits the pixel as far as it must be.
+    pub(super) fn refine(&mut self, lattice: &Lattice) -> Pixel {
         let whole = Part { at: [0, 0], level: 0 };
-        for (at, value) in whole.corners().into_iter().zip(corners) {
+        for (at, value) in whole.corners().into_iter().zip(lattice.around(self.pixel)) {
             self.note(at, value);
         }
-        self.part(whole);
+        if self.depth > 0 && lattice.contrast_around(self.pixel) > self.how.neighbour_threshold() {
+            self.split(whole);
+        } else {
+            self.part(whole);
+        }
         self.sum
-    }
-
-    /// Splits the pixel, corners and all.
-    pub(super) fn trace_corners(&mut self) {
-        let whole = Part { at: [0, 0], level: 0 };
-        whole.corners().into_iter().for_each(|at| self.trace(at));
-        self.part(whole);
     }
 
     /// Where the samples were taken, in the order that [`Job::record`] describes.
@@ -128,23 +128,50 @@ impl<'a> Square<'a> {
     /// Adds a part to the sum.
     fn part(&mut self, part: Part) {
         let corners = part.corners().map(|at| self.canvas.values[self.index(at)].1);
-        if part.level == self.depth || !self.must_be_split(part, &corners) {
-            return add_average(&mut self.sum, &corners, part.area());
+        // An edge through the pixel passes through 1 / length squares, whose errors are of length^2 each and of both signs.
+        let error = contrast(&corners) * part.length() * part.length().sqrt();
+        if part.level < self.depth && (error > self.how.threshold || self.hides_something(part)) {
+            return self.split(part);
         }
+        let area = part.length() * part.length();
+        if error <= self.how.threshold * FINISHED || part.side() == 1 {
+            return add_average(&mut self.sum, &corners, area);
+        }
+        let inside = self.inside(part);
+        let value = self.sample(inside);
+        self.places.push(self.place(inside));
+        if value[0].is_nan() {
+            return add_average(&mut self.sum, &corners, area);
+        }
+        add_average(&mut self.sum, &corners, 0.5 * area);
+        self.sum.add(value, 0.5 * area);
+    }
+
+    fn split(&mut self, part: Part) {
         self.done.splits.get_or_insert_default().by_level[part.level as usize] += 1;
         part.middles().into_iter().for_each(|at| self.trace(at));
         part.quarters().into_iter().for_each(|quarter| self.part(quarter));
     }
 
-    fn must_be_split(&mut self, part: Part, corners: &[[f32; 3]; 4]) -> bool {
-        contrast(corners) * part.area() > self.how.threshold || self.hides_something(part)
+    /// Somewhere in a part. Along a row of equal parts all heights are as frequent, along a column all distances from the
+    /// left: the bits of the other coordinate reversed, and turned over by a hash of the row and of the column.
+    fn inside(&self, part: Part) -> [u32; 2] {
+        let [x, y] = part.at;
+        let [px, py] = self.pixel.map(u64::from);
+        let reversed = |v: u32| (v.reverse_bits() >> (32 - MAX_SPLITS)) << (MAX_SPLITS - part.level);
+        let hash = |axis: u64, v: u32| {
+            let key = (px << 32 | py) ^ (u64::from(v) << 1 | axis).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            (key ^ key >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> (64 - MAX_SPLITS)
+        };
+        let within = |bits: u32, hash: u64| (((bits ^ hash as u32) & (GRID - 1)) * part.side()) >> MAX_SPLITS;
+        [x + within(reversed(y), hash(0, x)), y + within(reversed(x), hash(1, y))]
     }
 
     /// Whether something small may lie in a part that no corner's ray meets, though it is not behind what they meet.
     fn hides_something(&mut self, part: Part) -> bool {
         let Some(things) = self.things.filter(|_| !self.spots.is_empty()) else { return false };
         let scale = 1.0 / GRID as f32;
-        let (at, side) = (part.at.map(|x| x as f32 * scale), part.side() as f32 * scale);
+        let (at, side) = (part.at.map(|x| x as f32 * scale), part.length());
         let spots = self.spots;
         spots.iter().filter(|spot| spot.may_hide_in(at, side)).any(|spot| {
             let hits = part.corners().map(|at| self.hit(at));
@@ -171,9 +198,14 @@ impl<'a> Square<'a> {
         if self.canvas.values[self.index(at)].0 == self.canvas.stamp {
             return;
         }
-        let bad = BadSample { pixel: self.pixel, sample: self.places.len() as u32 };
-        let value = value(self.job, self.place(at), &mut self.out, self.done, bad);
+        let value = self.sample(at);
         self.note(at, value);
+    }
+
+    /// Linear RGB of a place, which must be noted next.
+    fn sample(&mut self, at: [u32; 2]) -> [f32; 3] {
+        let bad = BadSample { pixel: self.pixel, sample: self.places.len() as u32 };
+        value(self.job, self.place(at), &mut self.out, self.done, bad)
     }
 
     fn note(&mut self, at: [u32; 2], value: [f32; 3]) {
