@@ -73,3 +73,27 @@ fn local_shading_is_lamberts_cosine_without_shadows() {
         assert!((s.mean()[1] - expected).abs() < 1e-5, "pixel {i}: {} != {expected}", s.mean()[1]);
     }
 }
+
+#[test]
+fn cost_is_every_primitive_without_a_hierarchy_and_less_with_one() {
+    let mut balls = BALL.to_owned();
+    for i in 0..9 {
+        balls += &format!("AttributeBegin Translate {i} 2 4 Shape \"sphere\" AttributeEnd\n");
+    }
+    let cost = |engine| {
+        let options = Options {
+            integrator: Some("cast".into()),
+            show: Some(Show::Cost),
+            width: Some(40),
+            engine,
+            ..Options::default()
+        };
+        let rendered = render(&scene(&balls, &options));
+        rendered.film.pixels().iter().map(durer::film::Pixel::mean).collect::<Vec<_>>()
+    };
+    let all = cost(durer::accel::Engine::BruteForce);
+    assert!(all.iter().all(|c| *c == [10.0, 0.0, 0.0]), "also where nothing is hit");
+    let some = cost(durer::accel::Engine::Bvh);
+    assert!(some.iter().all(|c| c[0] < 10.0 && c[1] >= 1.0));
+    assert!(some.iter().any(|c| c[0] >= 1.0) && some.iter().any(|c| c[0] == 0.0));
+}

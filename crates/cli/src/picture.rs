@@ -50,6 +50,16 @@ impl Picture<'_> {
         }
     }
 
+    /// Tests of the costliest pixel of a cost picture: what is white in its PNG.
+    pub(crate) fn most_tests(&self) -> Option<f32> {
+        match self.output() {
+            Output::Data(Show::Cost) => {
+                develop_data(Show::Cost, self.view().width, self.view().height, &self.data()).most_tests
+            }
+            _ => None,
+        }
+    }
+
     fn output(&self) -> Output {
         self.prepared.integrator.output()
     }
@@ -115,6 +125,7 @@ fn channel_names(output: Output) -> &'static [&'static str] {
         Output::Data(Show::Normal) => &["normal.X", "normal.Y", "normal.Z"],
         Output::Data(Show::Uv) => &["uv.U", "uv.V"],
         Output::Data(Show::Id) => &["id"],
+        Output::Data(Show::Cost) => &["cost.primitives", "cost.boxes"],
     }
 }
 

@@ -34,7 +34,8 @@ Examples:
 Files: .png is developed (exposure, tone map, sRGB) to 8 bits; .exr holds linear
 floats as they are. Its channels: R, G, B; depth.Z (metres along the camera's
 axis) and depth.length (along the ray); normal.X, .Y, .Z (world space); uv.U, .V;
-id (1 is the first object). All are 0 where nothing was hit.
+id (1 is the first object); cost.primitives and cost.boxes (tests of a ray). All but
+those of cost are 0 where nothing was hit.
 
 stdout holds the paths of the files, a line each, or with --stats=json an object:
 version 1; durer, scene, integrator, width, height, spp, seed, threads, outputs,
@@ -223,6 +224,9 @@ impl Args {
         if let (Some(range), false) = (picture.depth_range(), self.talk.quiet) {
             let [near, far] = [range.near, range.far].map(|d| significant(d, 6));
             tell(&format!("depth: {near} m (nearest) to {far} m (farthest)"));
+        }
+        if let (Some(most), false) = (picture.most_tests(), self.talk.quiet) {
+            tell(&format!("cost: white is {} tests of boxes and primitives per ray", significant(most, 6)));
         }
         if self.stats == Some(StatsForm::Text) {
             tell(stats.text().trim_end());

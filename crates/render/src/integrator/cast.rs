@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     Contribution, PathRay, SampleCx, Value,
-    probe::{Probe, RayKind, StopReason},
+    probe::{Counters, Probe, RayKind, StopReason},
 };
 
 /// What a ray cast shows of the nearest hit.
@@ -29,13 +29,16 @@ pub enum Show {
     Uv,
     /// Number of the object.
     Id,
+    /// Tests of primitives and of boxes that finding the hit, or nothing, takes.
+    Cost,
 }
 
 impl Show {
     /// All, in the order of their numbers.
-    pub const ALL: [Self; 6] = [Self::Depth, Self::Normal, Self::Shading, Self::Albedo, Self::Uv, Self::Id];
+    pub const ALL: [Self; 7] =
+        [Self::Depth, Self::Normal, Self::Shading, Self::Albedo, Self::Uv, Self::Id, Self::Cost];
     /// The words for them.
-    pub const WORDS: [&'static str; 6] = ["depth", "normal", "shading", "albedo", "uv", "id"];
+    pub const WORDS: [&'static str; 7] = ["depth", "normal", "shading", "albedo", "uv", "id", "cost"];
 
     /// From its word.
     pub fn from_word(word: &str) -> Option<Self> {
@@ -59,7 +62,7 @@ impl Kind for Cast {
     const SCHEMA: Schema = Schema {
         name: "cast",
         aliases: &[],
-        doc: "Ray casting: the nearest hit's depth, normal, local shading, albedo, uv or object id.",
+        doc: "Ray casting: the nearest hit's depth, normal, local shading, albedo, uv, object id, or what finding it costs.",
         params: &[ParamSpec::new(
             "show",
             ParamType::Choice(&Show::WORDS),
@@ -90,6 +93,7 @@ impl Transport for Cast {
     ) {
         let id = probe.ray(parent, &ray, RayKind::Eye);
         out.rays = 1;
+        let counts = (self.show == Show::Cost).then(|| count(cx, &ray));
         out.value = match cx.scene.closest(cx, &ray.ray, probe, id) {
             Some(hit) => {
                 let s = Shading::at(cx, &ray.ray, &hit);
@@ -102,11 +106,22 @@ impl Transport for Cast {
                 self.miss(cx, &ray)
             }
         };
+        if let Some(counts) = counts {
+            out.value = counts;
+        }
         if let Value::Radiance(radiance) = out.value {
             probe.local(id, radiance);
             probe.result(id, radiance);
         }
     }
+}
+
+/// Tests of primitives and of boxes on the way to the nearest hit: also of rays that hit nothing.
+fn count(cx: &SampleCx<'_>, ray: &PathRay) -> Value {
+    let mut counters = Counters::default();
+    let id = counters.ray(Default::default(), ray, RayKind::Eye);
+    cx.scene.closest(cx, &ray.ray, &mut counters, id);
+    Value::Data(Some([counters.primitive_tests as f32, counters.node_tests as f32, 0.0]))
 }
 
 impl Cast {
@@ -118,6 +133,7 @@ impl Cast {
             Show::Uv => data([s.surface.uv.x, s.surface.uv.y, 0.0]),
             Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
             Show::Albedo => Value::Radiance(s.bsdf.albedo()),
+            Show::Cost => Value::Data(None),
             Show::Shading => {
                 let mut radiance = s.sent_out() + s.ambient(cx) + s.blurred_sky(cx);
                 let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
