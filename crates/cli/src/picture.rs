@@ -50,11 +50,11 @@ impl Picture<'_> {
         }
     }
 
-    /// Tests of the costliest pixel of a cost picture: what is white in its PNG.
-    pub(crate) fn most_tests(&self) -> Option<f32> {
+    /// Tests of a white pixel of a cost picture.
+    pub(crate) fn white_tests(&self) -> Option<f32> {
         match self.output() {
             Output::Data(Show::Cost) => {
-                develop_data(Show::Cost, self.view().width, self.view().height, &self.data()).most_tests
+                develop_data(Show::Cost, self.view().width, self.view().height, &self.data()).white_tests
             }
             _ => None,
         }

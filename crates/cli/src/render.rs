@@ -225,8 +225,8 @@ impl Args {
             let [near, far] = [range.near, range.far].map(|d| significant(d, 6));
             tell(&format!("depth: {near} m (nearest) to {far} m (farthest)"));
         }
-        if let (Some(most), false) = (picture.most_tests(), self.talk.quiet) {
-            tell(&format!("cost: white is {} tests of boxes and primitives per ray", significant(most, 6)));
+        if let (Some(white), false) = (picture.white_tests(), self.talk.quiet) {
+            tell(&format!("cost: white is {} tests of boxes and primitives per ray", significant(white, 6)));
         }
         if self.stats == Some(StatsForm::Text) {
             tell(stats.text().trim_end());

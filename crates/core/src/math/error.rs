@@ -2,6 +2,7 @@
 use super::{Normal3, Point3, Vector3};
 
 /// Bound on the relative error of `n` chained roundings: `n u / (1 - n u)`, `u = 2^-24`.
+#[inline]
 pub const fn gamma(n: u32) -> f32 {
     let u = f32::EPSILON / 2.0;
     (n as f32 * u) / (1.0 - n as f32 * u)
@@ -11,6 +12,7 @@ pub const fn gamma(n: u32) -> f32 {
 ///
 /// `p` lies within `p_error` (absolute, per coordinate) of the surface with unit normal `n`. The point is moved along
 /// the normal, to the side `w` points to, until outside the box of uncertainty, then one float further on each axis.
+#[inline]
 pub fn offset_ray_origin(p: Point3, p_error: Vector3, n: Normal3, w: Vector3) -> Point3 {
     let distance = n.abs().dot(p_error);
     let side = if n.dot(w) < 0.0 { -1.0 } else { 1.0 };

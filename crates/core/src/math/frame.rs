@@ -14,6 +14,7 @@ pub struct Frame {
 
 impl Frame {
     /// Any frame around the unit normal `n` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+    #[inline]
     pub fn from_z(n: Normal3) -> Self {
         let sign = 1.0f32.copysign(n.z);
         let a = -1.0 / (sign + n.z);
@@ -25,10 +26,12 @@ impl Frame {
         }
     }
     /// World direction to local.
+    #[inline]
     pub fn to_local(&self, v: Vector3) -> Vector3 {
         Vector3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
     }
     /// Local direction to world.
+    #[inline]
     pub fn to_world(&self, v: Vector3) -> Vector3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }

@@ -12,14 +12,17 @@ pub struct Interval {
 
 impl Interval {
     /// From both ends.
+    #[inline]
     pub const fn new(min: f32, max: f32) -> Self {
         Self { min, max }
     }
     /// The interval that holds only `v`.
+    #[inline]
     pub const fn point(v: f32) -> Self {
         Self { min: v, max: v }
     }
     /// The point a fraction `u` in `[0, 1]` of the way from `min` to `max`.
+    #[inline]
     pub fn at(self, u: f32) -> f32 {
         super::float::lerp(u, self.min, self.max)
     }

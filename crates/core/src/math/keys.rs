@@ -13,6 +13,7 @@ pub struct Segment {
 impl Segment {
     /// The segment of `time` among at least two keys with rising times. Before the first and after the last key time
     /// stands still.
+    #[inline]
     pub fn at(time: f32, keys: usize, time_of: impl Fn(usize) -> f32) -> Self {
         let mut key = 0;
         while key + 2 < keys && time_of(key + 1) <= time {
@@ -23,6 +24,7 @@ impl Segment {
     }
 
     /// The point at `u` between `a` and `b`. It never leaves the box around the two, whatever rounding does.
+    #[inline]
     pub fn point(&self, a: Point3, b: Point3) -> Point3 {
         let one = |a: f32, b: f32| {
             let x = a * (1.0 - self.u) + b * self.u;

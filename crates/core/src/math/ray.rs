@@ -18,14 +18,17 @@ pub struct Ray {
 
 impl Ray {
     /// The half line `t >= 0` at time 0.
+    #[inline]
     pub const fn new(o: Point3, d: Vector3) -> Self {
         Self { o, d, t_min: 0.0, t_max: f32::INFINITY, time: 0.0 }
     }
     /// `o + t d`.
+    #[inline]
     pub fn at(&self, t: f32) -> Point3 {
         self.o + self.d * t
     }
     /// True if `t` lies in `[t_min, t_max]` (false for NaN).
+    #[inline]
     pub fn contains(&self, t: f32) -> bool {
         t >= self.t_min && t <= self.t_max
     }

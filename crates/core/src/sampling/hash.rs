@@ -1,6 +1,7 @@
 //! Integer hashing: the only source of randomness.
 
 /// A permutation of 64-bit integers that decorrelates neighbours (the finaliser "moremur", Evensen 2019).
+#[inline]
 pub(super) const fn mix(mut x: u64) -> u64 {
     x ^= x >> 27;
     x = x.wrapping_mul(0x3C79_AC49_2BA7_B653);
@@ -10,11 +11,13 @@ pub(super) const fn mix(mut x: u64) -> u64 {
 }
 
 /// Hash of a pair; not symmetric.
+#[inline]
 pub(super) const fn combine(a: u64, b: u64) -> u64 {
     mix(a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ mix(b.wrapping_add(0xD1B5_4A32_D192_ED03)))
 }
 
 /// The upper 24 bits as a float in `[0, 1)`.
+#[inline]
 pub(super) fn unit_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / (1u32 << 24) as f32)
 }

@@ -38,12 +38,14 @@ impl Sampler {
     /// The sampler of sample `index` out of `count` in `pixel`.
     ///
     /// With a `count` of one, [`Dim::Pixel`] gives the pixel's centre: a picture without antialiasing has straight edges.
+    #[inline]
     pub fn new(kind: SamplerKind, seed: u64, pixel: [u32; 2], index: u32, count: u32) -> Self {
         let pixel = (u64::from(pixel[1]) << 32) | u64::from(pixel[0]);
         Self { kind, key: combine(seed, pixel), index, count }
     }
 
     /// The sampler whose every number is the middle of `[0, 1)`.
+    #[inline]
     pub fn middle() -> Self {
         Self { kind: SamplerKind::Regular, key: 0, index: 0, count: 1 }
     }
@@ -60,6 +62,7 @@ impl Sampler {
     /// The `i`-th of `n` samplers that share the work of this one: where several rays take the place of one, their
     /// numbers together are those of `n` times as many samples, and as well spread over the whole pixel.
     #[must_use]
+    #[inline]
     pub fn split(self, i: u32, n: u32) -> Self {
         debug_assert!(i < n, "part {i} of {n}");
         Self {
@@ -72,12 +75,14 @@ impl Sampler {
     /// The sampler that `n` samples with consecutive indices have in common: its numbers are spread over an `n`-th of
     /// them.
     #[must_use]
+    #[inline]
     pub fn shared_by(self, n: u32) -> Self {
         let n = n.max(1);
         Self { index: self.index / n, count: self.count.div_ceil(n), ..self }
     }
 
     /// A number in `[0, 1)`.
+    #[inline]
     pub fn d1(&self, dim: Dim) -> f32 {
         let place = match self.kind {
             SamplerKind::Sobol | SamplerKind::Independent => return self.d2(dim).x,
@@ -88,6 +93,7 @@ impl Sampler {
     }
 
     /// A point in `[0, 1)²`.
+    #[inline]
     pub fn d2(&self, dim: Dim) -> Point2 {
         if dim == Dim::Pixel && self.count == 1 {
             return Point2::new(0.5, 0.5);

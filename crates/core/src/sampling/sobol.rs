@@ -3,12 +3,14 @@
 //! Every base-2 elementary interval of area `2^-m` holds one of the first `2^m` points: a (0, 2)-sequence.
 
 /// Dimension 0: the van der Corput sequence.
+#[inline]
 pub(super) const fn dimension0(index: u32) -> u32 {
     index.reverse_bits()
 }
 
 /// Dimension 1: the generator matrix of the primitive polynomial x + 1 is Pascal's triangle mod 2, a Kronecker power of
 /// [[1, 1], [0, 1]], so that a vector is multiplied in one step per factor.
+#[inline]
 pub(super) const fn dimension1(index: u32) -> u32 {
     let mut x = index.reverse_bits();
     x ^= (x & 0x5555_5555) << 1;
@@ -20,6 +22,7 @@ pub(super) const fn dimension1(index: u32) -> u32 {
 
 /// Owen scrambling: a random permutation of the binary digits' subtrees, chosen by `seed`. The multiplications by even
 /// numbers let each bit depend on the lower ones only, hence the reversals (Laine and Karras 2011).
+#[inline]
 pub(super) const fn owen_scramble(x: u32, seed: u32) -> u32 {
     let mut x = x.reverse_bits();
     x ^= x.wrapping_mul(0x3D20_ADEA);

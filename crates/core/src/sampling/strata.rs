@@ -20,6 +20,7 @@ pub(super) enum Place {
 
 /// Columns and rows of at least `n` cells, close to a square: exactly `n` if that is a product of two numbers of which one
 /// is at most double the other, else as many rows of a square as are needed.
+#[inline]
 fn grid(n: u32) -> (u32, u32) {
     let side = n.isqrt() + u32::from(n.isqrt().pow(2) < n);
     let most = if n <= MOST_DIVIDED { (2 * n).isqrt() } else { side };
@@ -52,6 +53,7 @@ fn permuted(i: u32, n: u32, seed: u32) -> u32 {
 }
 
 /// The part of a cell, two numbers in `[0, 1)`, that sample `index` of the dimension hashed in `h` takes.
+#[inline]
 fn inside(h: u64, index: u32, place: Place) -> [f32; 2] {
     match place {
         Place::Centre => [0.5, 0.5],
@@ -63,11 +65,13 @@ fn inside(h: u64, index: u32, place: Place) -> [f32; 2] {
 }
 
 /// `(cell + u) / cells`, below 1 whatever rounding does.
+#[inline]
 fn within(cell: u32, u: f32, cells: u32) -> f32 {
     ((cell as f32 + u) / cells as f32).min(1.0 - f32::EPSILON / 2.0)
 }
 
 /// Sample `index` of `count` in the unit interval; `h` is the hash of pixel and dimension.
+#[inline]
 pub(super) fn interval(h: u64, index: u32, count: u32, place: Place) -> f32 {
     let [u, _] = inside(h, index, place);
     if count > MOST {
@@ -78,6 +82,7 @@ pub(super) fn interval(h: u64, index: u32, count: u32, place: Place) -> f32 {
 }
 
 /// Sample `index` of `count` in the unit square; `h` is the hash of pixel and dimension.
+#[inline]
 pub(super) fn square(h: u64, index: u32, count: u32, place: Place) -> Point2 {
     let [u, v] = inside(h, index, place);
     if count > MOST {

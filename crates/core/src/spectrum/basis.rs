@@ -12,18 +12,21 @@ pub enum Basis {
 
 impl Basis {
     /// Lanes of a reflectance, transmittance or other weight.
+    #[inline]
     pub fn reflectance(self, c: Color) -> Spectrum {
         match self {
             Self::Rgb => rgb_lanes(c),
         }
     }
     /// Lanes of an emitted quantity.
+    #[inline]
     pub fn emission(self, c: Color) -> Spectrum {
         match self {
             Self::Rgb => rgb_lanes(c),
         }
     }
     /// What the film stores of a radiance: linear Rec. 709 components.
+    #[inline]
     pub fn to_rgb(self, s: Spectrum) -> [f32; 3] {
         match self {
             Self::Rgb => {
@@ -34,6 +37,7 @@ impl Basis {
     }
 }
 
+#[inline]
 fn rgb_lanes(c: Color) -> Spectrum {
     let [r, g, b] = c.rgb;
     Spectrum::from_lanes([r, g, b, g])

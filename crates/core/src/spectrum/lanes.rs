@@ -12,37 +12,46 @@ impl Spectrum {
     /// One in every lane: a weight that changes nothing.
     pub const ONE: Self = Self([1.0; 4]);
 
+    #[inline]
     pub(crate) const fn from_lanes(lanes: [f32; 4]) -> Self {
         Self(lanes)
     }
+    #[inline]
     pub(crate) const fn lanes(self) -> [f32; 4] {
         self.0
     }
     /// `v` in every lane.
+    #[inline]
     pub const fn splat(v: f32) -> Self {
         Self([v; 4])
     }
     /// `f` of every lane.
+    #[inline]
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
         Self(self.0.map(f))
     }
     /// `f` of every pair of lanes.
+    #[inline]
     pub fn zip(self, o: Self, f: impl Fn(f32, f32) -> f32) -> Self {
         Self(std::array::from_fn(|i| f(self.0[i], o.0[i])))
     }
     /// Largest lane: what stop rules compare.
+    #[inline]
     pub fn max(self) -> f32 {
         self.0[0].max(self.0[1]).max(self.0[2]).max(self.0[3])
     }
     /// Plain mean of the lanes; in RGB `(r + 2 g + b) / 4`, a fair stand-in for luminance.
+    #[inline]
     pub fn mean(self) -> f32 {
         (self.0[0] + self.0[1] + self.0[2] + self.0[3]) * 0.25
     }
     /// True if every lane is zero.
+    #[inline]
     pub fn is_black(self) -> bool {
         self.0 == [0.0; 4]
     }
     /// False if a lane is infinite or NaN.
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.0.iter().all(|v| v.is_finite())
     }
@@ -50,34 +59,40 @@ impl Spectrum {
 
 impl Add for Spectrum {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         self.zip(o, |a, b| a + b)
     }
 }
 impl AddAssign for Spectrum {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 impl Mul for Spectrum {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         self.zip(o, |a, b| a * b)
     }
 }
 impl MulAssign for Spectrum {
+    #[inline]
     fn mul_assign(&mut self, o: Self) {
         *self = *self * o;
     }
 }
 impl Mul<f32> for Spectrum {
     type Output = Self;
+    #[inline]
     fn mul(self, s: f32) -> Self {
         self.map(|v| v * s)
     }
 }
 impl Div<f32> for Spectrum {
     type Output = Self;
+    #[inline]
     fn div(self, s: f32) -> Self {
         self.map(|v| v / s)
     }

@@ -80,8 +80,8 @@ pub struct DataPicture {
     pub picture: Developed,
     /// Of depth pictures in which something was hit.
     pub depth: Option<DepthRange>,
-    /// Of cost pictures: tests of the white pixel.
-    pub most_tests: Option<f32>,
+    /// Of cost pictures: tests of a white pixel. One in 200 has more.
+    pub white_tests: Option<f32>,
 }
 
 /// Develops light: `rgb` is linear Rec. 709, one colour per pixel, row by row; `exposure_ev` brightens it by that many
@@ -104,16 +104,16 @@ pub fn develop(width: u32, height: u32, rgb: &[[f32; 3]], exposure_ev: f32, tone
 /// | normal | unit vector | (n + 1) / 2: x red, y green, z blue |
 /// | uv | coordinates | fractional parts in red and green |
 /// | id | whole number, first | a colour of its own, the same in every picture |
-/// | cost | tests of primitives, first, and of boxes | their sum, from none (black) to the most (white), through blue, red and yellow |
+/// | cost | tests of primitives, first, and of boxes | their sum, from none (black) to nearly the most (white), through blue, red and yellow |
 /// | shading, albedo | linear light | as [`develop`] at 0 EV without tone map |
 ///
 /// # Panics
 /// If `data` does not have `width * height` entries.
 pub fn develop_data(show: Show, width: u32, height: u32, data: &[Option<[f32; 3]>]) -> DataPicture {
     let depth = if show == Show::Depth { DepthRange::of(data) } else { None };
-    let most = data.iter().flatten().map(|d| d[0] + d[1]).fold(0.0, f32::max);
+    let white = if show == Show::Cost { nearly_most(data) } else { 0.0 };
     let pixel = |v: [f32; 3]| match show {
-        Show::Cost => heat((v[0] + v[1]) / most.max(1.0)),
+        Show::Cost => heat((v[0] + v[1]) / white),
         Show::Depth => [depth.map_or(0, |range| range.level(v[0])); 3],
         Show::Normal => v.map(|n| unit8(0.5 * n + 0.5)),
         Show::Uv => [unit8(v[0] - v[0].floor()), unit8(v[1] - v[1].floor()), 0],
@@ -121,7 +121,7 @@ pub fn develop_data(show: Show, width: u32, height: u32, data: &[Option<[f32; 3]
         Show::Shading | Show::Albedo => ToneMap::None.apply(v).map(srgb8),
     };
     let picture = Developed::new(width, height, data.iter().map(|v| v.map_or([0; 3], pixel)));
-    DataPicture { picture, depth, most_tests: (show == Show::Cost).then_some(most) }
+    DataPicture { picture, depth, white_tests: (show == Show::Cost).then_some(white) }
 }
 
 /// `[0, 1]` to 0..=255, without a curve; NaN gives 0.
@@ -143,6 +143,14 @@ fn id_colour(id: u32) -> [u8; 3] {
         let share = (2.0 - 6.0 * turn.abs()).clamp(0.0, 1.0);
         unit8(value * (1.0 - saturation + saturation * share))
     })
+}
+
+/// The tests that one pixel in 200 exceeds: a few rays along edges would make all others dark. At least 1.
+fn nearly_most(data: &[Option<[f32; 3]>]) -> f32 {
+    let mut tests: Vec<f32> = data.iter().flatten().map(|d| d[0] + d[1]).collect();
+    tests.sort_by(f32::total_cmp);
+    let rank = tests.len().saturating_sub(1 + tests.len() / 200);
+    tests.get(rank).map_or(1.0, |most| most.max(1.0))
 }
 
 /// A colour of heat for `[0, 1]`: lighter is always more, so that it can be read without colours too.
