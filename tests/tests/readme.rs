@@ -1,4 +1,4 @@
-//! The README's commands work: each `sh` block is run, small, in an empty folder.
+//! The commands of the README and of the gallery work: each `sh` block is run, small, in an empty folder.
 //!
 //! `cargo run --release -- X` becomes `durer X` of the build under test. Pictures are made small unless the command says
 //! how large. Files that stand for a user's own are written beside it: `room.glb`, `room.pbrt`, `statue.ply.gz` and
@@ -75,8 +75,10 @@ fn small(command: &str) -> Option<Vec<String>> {
     let words = command.strip_prefix(PREFIX)?.split_whitespace();
     let mut words: Vec<String> = words.map(|word| word.trim_matches('\'').to_owned()).collect();
     let says = |option: &str| words.iter().any(|word| word == option);
-    let sized = says("--width") || says("--height") || says("--scale") || says("--crop");
-    if says("render") && !sized {
+    let width = words.iter().skip_while(|word| *word != "--width").nth(1).and_then(|w| w.parse().ok());
+    let is_small =
+        width.is_some_and(|width: u32| width <= 320) || says("--height") || says("--scale") || says("--crop");
+    if (says("render") || says("cost")) && !is_small {
         words.extend(["--scale", "0.1"].map(str::to_owned));
     }
     Some(words)
@@ -146,8 +148,9 @@ fn promised(words: &[String], stdout: &str) -> Vec<String> {
 
 #[test]
 fn every_command_does_what_it_says() {
-    let readme = fs::read_to_string(root().join("README.md")).expect("a README");
-    let commands = commands(&readme);
+    let pages =
+        ["README.md", "docs/gallery.md"].map(|page| fs::read_to_string(root().join(page)).expect("a page"));
+    let commands: Vec<Shown> = pages.iter().flat_map(|page| commands(page)).collect();
     assert!(commands.iter().any(|c| c.command.starts_with(PREFIX)), "the README shows no command");
     for (command, _) in NOT_RUN {
         assert!(commands.iter().any(|c| c.command == *command), "the README no longer shows `{command}`");
@@ -186,11 +189,12 @@ fn every_command_does_what_it_says() {
 #[test]
 fn links_lead_to_files() {
     let mut dead = Vec::new();
-    for page in ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"] {
+    for page in ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/gallery.md"] {
         let text = fs::read_to_string(root().join(page)).expect("a page");
         let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
         let files = targets.filter(|target| !target.is_empty() && !target.contains("://"));
-        dead.extend(files.filter(|file| !root().join(file).exists()).map(|file| format!("{page}: {file}")));
+        let folder = root().join(page).parent().expect("a folder").to_path_buf();
+        dead.extend(files.filter(|file| !folder.join(file).exists()).map(|file| format!("{page}: {file}")));
     }
     assert!(dead.is_empty(), "links that lead nowhere:\n{}", dead.join("\n"));
 }
