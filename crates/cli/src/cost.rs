@@ -11,7 +11,7 @@ use durer::{
 };
 
 use crate::{
-    exit::{Exit, emit, emit_json, harmless},
+    exit::{Exit, WrongUsage, emit, emit_json, harmless},
     load::load,
     options::{SampleOptions, TalkOptions},
     progress::Bar,
@@ -84,14 +84,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let Some(prepared) = &loaded.prepared else {
         return Ok(loaded.failure);
     };
+    if prepared.window().area() == 0 {
+        return Err(WrongUsage("--crop lies outside the picture".to_owned()).into());
+    }
     // There is no picture to keep: Ctrl-C ends the program.
     let never = AtomicBool::new(false);
     let Some(predicted) = predict(prepared, &never) else { return Ok(Exit::Interrupted) };
     let measured = if args.predict {
         None
     } else {
-        let samples = prepared.window().area() * u64::from(prepared.settings.samples);
-        let bar = Bar::new(samples, args.talk.quiet);
+        let bar = Bar::new(prepared.job().steps(), args.talk.quiet);
         let measured = measure(prepared, &bar, &never);
         bar.finish();
         measured
