@@ -7,6 +7,7 @@ use durer::{
     accel::Engine,
     builtin,
     cost::{Factors, FullTree, Measured, Method, Predicted, advice, alternatives, measure, predict},
+    drive::{Adaptive, Antialias},
     film::Tile,
     integrator::Sampling,
 };
@@ -181,6 +182,19 @@ fn built_in_scenes_are_predicted_within_15_percent() {
                 assert!((product / measured.primitive_tests as f64 - 1.0).abs() < 1e-9, "{name}");
             }
         }
+    }
+}
+
+#[test]
+fn adaptive_antialiasing_is_predicted_within_15_percent() {
+    for name in ["whitted", "glass-plate", "cornell"] {
+        let antialias = Antialias::Adaptive(Adaptive::default());
+        let options = Options { width: Some(150), antialias, ..Options::default() };
+        let (predicted, measured) = bill(&built_in(name, options));
+        let ratio = predicted.factors.primitive_tests() / measured.primitive_tests as f64;
+        assert!((ratio - 1.0).abs() < 0.15, "{name}: {ratio}");
+        assert!(measured.factors.supersamples > 1.0 && measured.factors.supersamples < 16.0);
+        assert!(!matches!(predicted.method, Method::Parameters(_)));
     }
 }
 

@@ -133,30 +133,18 @@ fn frosted_glass_in_a_white_sky_never_gains_and_loses_little_i19() {
 
 #[test]
 fn frosted_bodies_absorb_and_overlap_like_smooth_ones_i18_i20() {
-    let rgb = |v: f64| format!("[{v} {v} {v}]");
-    let bodies: [(&str, Box<dyn Fn(&str) -> String>); 3] = [
-        ("absorbing", Box::new(|r| ball(1.0, &format!("\"rgb absorption\" {} {r}", rgb(0.5))))),
-        (
-            "glass over water",
-            Box::new(|r| {
-                ball(1.0, &format!("\"integer priority\" 2 \"rgb absorption\" {} {r}", rgb(0.2)))
-                    + "Translate .5 0 0\n"
-                    + &ball(0.9, "\"integer priority\" 1 \"float eta\" 1.333 \"rgb absorption\" [.3 .3 .3]")
-            }),
-        ),
-        (
-            "water over glass",
-            Box::new(|r| {
-                ball(1.0, &format!("\"integer priority\" 1 \"rgb absorption\" {} {r}", rgb(0.2)))
-                    + "Translate .5 0 0\n"
-                    + &ball(0.9, "\"integer priority\" 2 \"float eta\" 1.333 \"rgb absorption\" [.3 .3 .3]")
-            }),
-        ),
-    ];
+    // Each with a place for what is said of its roughness.
+    let alone = ball(1.0, "\"rgb absorption\" [.5 .5 .5] {r}");
+    let two = |outer: u32, inner: u32| {
+        let glass = ball(1.0, &format!("\"integer priority\" {outer} \"rgb absorption\" [.2 .2 .2] {{r}}"));
+        let water = format!("\"integer priority\" {inner} \"float eta\" 1.333 \"rgb absorption\" [.3 .3 .3]");
+        format!("{glass}Translate .5 0 0\n{}", ball(0.9, &water))
+    };
+    let bodies = [("absorbing", alone), ("glass over water", two(2, 1)), ("water over glass", two(1, 2))];
     for (what, world) in bodies {
         let taken = |roughness: &str| {
             let options = Options { max_depth: Some(12), ..nested(4, 1, 1) };
-            portrait(&format!("{SKY}{}", world(roughness)), &options)
+            portrait(&format!("{SKY}{}", world.replace("{r}", roughness)), &options)
         };
         let (smooth, nearly, rough) =
             (taken(""), taken("\"float roughness\" 0.004"), taken("\"float roughness\" 0.4"));
@@ -283,11 +271,15 @@ fn one_bounce_says_nothing_of_the_next_c8() {
     let n = pairs.len() as f64;
     for i in 0..2 {
         for j in 0..2 {
-            let mean = |f: &dyn Fn(&([f64; 2], [f64; 2])) -> f64| pairs.iter().map(f).sum::<f64>() / n;
-            let (ma, mb) = (mean(&|p| p.0[i]), mean(&|p| p.1[j]));
-            let covariance = mean(&|p| (p.0[i] - ma) * (p.1[j] - mb));
-            let (va, vb) = (mean(&|p| (p.0[i] - ma).powi(2)), mean(&|p| (p.1[j] - mb).powi(2)));
-            let r = covariance / (va * vb).sqrt();
+            let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
+            let about_mean = |values: Vec<f64>| {
+                let middle = mean(&values);
+                values.iter().map(|v| v - middle).collect::<Vec<f64>>()
+            };
+            let a = about_mean(pairs.iter().map(|p| p.0[i]).collect());
+            let b = about_mean(pairs.iter().map(|p| p.1[j]).collect());
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let r = product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt();
             // Three and a half times the spread of as many unrelated pairs.
             assert!(r.abs() < 3.5 / n.sqrt(), "{i} {j}: {r}");
         }

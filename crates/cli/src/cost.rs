@@ -34,9 +34,10 @@ shadow rays x supersamples x gloss x temporal x focal.
   supersamples       points of a pixel; with --sampling shared one sample set
                      serves all effects, and temporal and focal are 1
 
-The prediction takes a hundredth of the pixels. With --accel none, where the trees
-of all pixels are full, it takes the parameters alone: (b^(d+1) - 1) / (b - 1) rays
-for b branches and d bounces, each tested against every primitive.
+The prediction takes a hundredth of the pixels, but a thousand if there are so many.
+With --accel none, where the trees of all pixels are full, it takes the parameters
+alone: (b^(d+1) - 1) / (b - 1) rays for b branches and d bounces, each tested against
+every primitive.
 
 JSON: an object with version 1; scene, integrator, width, height, samples, accel,
 primitives; predicted and measured (null with --predict), each with primitive_tests,
