@@ -1,5 +1,5 @@
 //! Same scene, same seed, same picture: whatever the number of threads, the hierarchy, or who counts.
-use durer::{Gather, Options, accel::Engine, builtin, film::Tile};
+use durer::{Distribution, Gather, Options, accel::Engine, builtin, film::Tile, integrator::Sampling};
 use durer_tests::{bits, prepared, render};
 
 fn options() -> Options {
@@ -68,4 +68,43 @@ fn a_cancelled_render_keeps_what_it_has() {
     let cancel = true.into();
     let rendered = prepared.job().render(Gather::Rays, &(), &cancel);
     assert!(rendered.cancelled && rendered.samples == 0);
+}
+
+/// The scene with all effects, its rays shared or nested.
+fn cook(sampling: Sampling, options: Options) -> durer::Prepared {
+    let distribution = Distribution {
+        shadow_rays: Some(2),
+        gloss_rays: Some(2),
+        time_samples: Some(2),
+        sampling: Some(sampling),
+        ..Distribution::default()
+    };
+    let options = Options { width: Some(40), samples: Some(9), distribution, ..options };
+    prepared(builtin::find("cook").expect("built in").import(), &options)
+}
+
+#[test]
+fn distributed_rays_depend_on_neither_threads_nor_hierarchy_nor_who_counts() {
+    for sampling in [Sampling::Shared, Sampling::Nested] {
+        let taken = |options| bits(&render(&cook(sampling, options)));
+        let one = taken(Options { threads: Some(1), ..Options::default() });
+        for threads in [2, 7] {
+            assert!(one == taken(Options { threads: Some(threads), ..Options::default() }), "{threads}");
+        }
+        let brute = Options {
+            engine: Engine::BruteForce,
+            crop: Some(Tile { x0: 3, y0: 4, x1: 30, y1: 12 }),
+            ..Options::default()
+        };
+        let part = taken(brute);
+        for (i, pixel) in part.iter().enumerate() {
+            let inside = (3..30).contains(&(i % 40)) && (4..12).contains(&(i / 40));
+            assert_eq!(*pixel, if inside { one[i] } else { [0; 3] }, "{i}");
+        }
+        let counted = cook(sampling, Options::default());
+        let counted = counted.job().render(Gather::Counters, &(), &Default::default());
+        assert!(bits(&counted) == one);
+        assert_eq!(counted.counters.map(|c| c.all_rays()), Some(counted.rays));
+        assert!(one != taken(Options { seed: 1, ..Options::default() }));
+    }
 }

@@ -1,5 +1,5 @@
 //! Watching changes nothing, and what was seen adds up to the pixel.
-use durer::{Options, builtin, spectrum::Basis};
+use durer::{Distribution, Options, builtin, integrator::Sampling, spectrum::Basis};
 use durer_tests::{prepared, render};
 
 fn whitted(samples: u32) -> durer::Prepared {
@@ -45,4 +45,44 @@ fn folding_the_tree_gives_the_sample_bit_for_bit_and_contributions_sum_to_it() {
         }
     }
     assert!(deepest >= 5, "the hollow ball makes deep trees, not {deepest}");
+}
+
+#[test]
+fn trees_of_distributed_rays_are_the_pixel_too() {
+    for sampling in [Sampling::Shared, Sampling::Nested] {
+        let distribution = Distribution {
+            shadow_rays: Some(2),
+            gloss_rays: Some(3),
+            sampling: Some(sampling),
+            ..Distribution::default()
+        };
+        let options = Options { width: Some(48), samples: Some(1), distribution, ..Options::default() };
+        let prepared = prepared(builtin::find("cook").expect("built in").import(), &options);
+        let film = render(&prepared).film;
+        let samples = prepared.settings.samples;
+        let mut glossy = 0;
+        for (i, pixel) in film.pixels().iter().enumerate() {
+            let trees = (0..samples).map(|s| prepared.job().record([i as u32 % 48, i as u32 / 48], s));
+            let mut sum = [0.0f64; 3];
+            for (tree, rgb) in trees {
+                let folded = Basis::Rgb.to_rgb(tree.fold());
+                assert_eq!(folded.map(f32::to_bits), rgb.map(f32::to_bits), "pixel {i}");
+                let parts = tree.nodes.iter().map(|n| f64::from(Basis::Rgb.to_rgb(n.contribution())[1]));
+                let whole: f64 = parts.sum();
+                assert!(
+                    (whole - f64::from(rgb[1])).abs() <= 1e-5 * whole.max(1.0),
+                    "pixel {i}: {whole} {rgb:?}"
+                );
+                sum.iter_mut().zip(rgb).for_each(|(s, v)| *s += f64::from(v) / f64::from(samples));
+                glossy +=
+                    tree.nodes.iter().filter(|n| n.kind == durer::probe::RayKind::GlossyReflection).count();
+            }
+            // The filter does not weigh all samples exactly alike.
+            let allowed = if samples == 1 { 0.0 } else { 0.01 };
+            for (s, v) in sum.iter().zip(pixel.mean()) {
+                assert!((s - f64::from(v)).abs() <= allowed * s, "pixel {i}: {s} {v}");
+            }
+        }
+        assert!(glossy > 500, "{glossy}");
+    }
 }

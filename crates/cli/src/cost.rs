@@ -11,7 +11,7 @@ use durer::{
 };
 
 use crate::{
-    exit::{Exit, emit, emit_json, harmless},
+    exit::{Exit, WrongUsage, emit, emit_json, harmless},
     load::load,
     options::{SampleOptions, TalkOptions},
     progress::Bar,
@@ -34,9 +34,10 @@ shadow rays x supersamples x gloss x temporal x focal.
   supersamples       points of a pixel; with --sampling shared one sample set
                      serves all effects, and temporal and focal are 1
 
-The prediction takes a hundredth of the pixels. With --accel none, where the trees
-of all pixels are full, it takes the parameters alone: (b^(d+1) - 1) / (b - 1) rays
-for b branches and d bounces, each tested against every primitive.
+The prediction takes a hundredth of the pixels, but a thousand if there are so many.
+With --accel none, where the trees of all pixels are full, it takes the parameters
+alone: (b^(d+1) - 1) / (b - 1) rays for b branches and d bounces, each tested against
+every primitive.
 
 JSON: an object with version 1; scene, integrator, width, height, samples, accel,
 primitives; predicted and measured (null with --predict), each with primitive_tests,
@@ -84,14 +85,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let Some(prepared) = &loaded.prepared else {
         return Ok(loaded.failure);
     };
+    if prepared.window().area() == 0 {
+        return Err(WrongUsage("--crop lies outside the picture".to_owned()).into());
+    }
     // There is no picture to keep: Ctrl-C ends the program.
     let never = AtomicBool::new(false);
     let Some(predicted) = predict(prepared, &never) else { return Ok(Exit::Interrupted) };
     let measured = if args.predict {
         None
     } else {
-        let samples = prepared.window().area() * u64::from(prepared.settings.samples);
-        let bar = Bar::new(samples, args.talk.quiet);
+        let bar = Bar::new(prepared.job().steps(), args.talk.quiet);
         let measured = measure(prepared, &bar, &never);
         bar.finish();
         measured

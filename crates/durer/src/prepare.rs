@@ -196,10 +196,12 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
             node.params.set(Param { name: name.to_owned(), ty, data, at: Location::None });
         } else {
             let takers = INTEGRATORS.iter().filter(|e| e.schema.params.iter().any(|p| p.name == name));
-            let takers: Vec<_> = takers.map(|e| format!("\"{}\"", e.schema.name)).collect();
+            let takers: Vec<_> = takers.map(|e| e.schema.name).collect();
+            let quoted: Vec<_> = takers.iter().map(|name| format!("\"{name}\"")).collect();
             let message =
-                format!("{wish} concerns the integrator {} only, not \"{}\"", takers.join(" or "), node.kind);
-            diagnostics.warning(Location::None, message);
+                format!("{wish} concerns the integrator {} only, not \"{}\"", quoted.join(" or "), node.kind);
+            let hint = format!("add --integrator {}", takers.join(" or "));
+            diagnostics.warning(Location::None, message).hint(hint);
         }
     }
     node

@@ -162,11 +162,17 @@ fn classic_coefficients_become_lobes() {
 }
 
 #[test]
-fn rough_glass_is_smooth_with_a_warning() {
-    let (glass, said) = built("glass", Params::new().float("roughness", 0.3));
-    assert!(glass.is_some());
-    let said: Vec<_> = said.iter().map(|d| (d.severity, d.message.as_str())).collect();
-    assert_eq!(said, [(Severity::Warning, "rough dielectrics are not supported yet; smooth is used")]);
+fn rough_glass_spreads_and_warns_of_directions_only() {
+    let spreads = |params| {
+        let (glass, said) = built("glass", params);
+        let said: Vec<_> = said.iter().map(|d| (d.severity, d.message.clone())).collect();
+        (bsdf(&*glass.expect("built"), seen_under(0.5)).spreads(), said)
+    };
+    assert_eq!(spreads(Params::new()), (false, vec![]));
+    assert_eq!(spreads(Params::new().float("roughness", 0.3)), (true, vec![]));
+    let (does, said) = spreads(Params::new().float("uroughness", 0.3).float("vroughness", 0.1));
+    let mean = "roughness that differs along u and v is not supported yet; its mean is used";
+    assert_eq!((does, said), (true, vec![(Severity::Warning, mean.to_owned())]));
     let (_, said) = built("dielectric", Params::new().float("eta", 0.0));
     assert!(said.has_errors());
 }

@@ -1,5 +1,6 @@
 //! Which factor to cut first ("can we reduce this?").
 use durer_accel::Engine;
+use durer_render::drive::Antialias;
 
 use super::Factors;
 use crate::Prepared;
@@ -22,8 +23,12 @@ pub fn advice(prepared: &Prepared, factors: &Factors, bvh: Option<&Factors>) -> 
         |factor: &'static str, value: f64, how: &'static str| Advice { factor, saves: saves(value), how };
     let nested = prepared.settings.nesting.time > 1 || prepared.settings.nesting.lens > 1;
     let shared = "--sampling shared: the samples that antialiasing needs anyway serve double duty";
+    let fewer_samples = match prepared.settings.antialias {
+        Antialias::Supersample => "--spp with fewer samples, or --antialias adaptive",
+        Antialias::Adaptive(_) => "a larger --aa-threshold or a smaller --aa-depth",
+    };
     let mut all = vec![
-        of("supersamples", factors.supersamples, "--spp with fewer samples, or --antialias adaptive"),
+        of("supersamples", factors.supersamples, fewer_samples),
         of("ray tree size", factors.tree, "a larger --min-contribution or a smaller --max-depth"),
         of("shadow rays", factors.shadow, "fewer lights, fewer --shadow-rays"),
         of("gloss", factors.gloss, "fewer --gloss-rays"),

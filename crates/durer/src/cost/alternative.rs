@@ -6,7 +6,7 @@ use durer_io::import::Imported;
 use durer_render::integrator::{Distributed, Sampling};
 use durer_scene::Kind;
 
-use super::{Factors, predict, probe::seconds_per_test};
+use super::{Factors, predict, probe::timed_tests};
 use crate::{Options, prepare};
 
 /// One way to make the picture.
@@ -47,12 +47,12 @@ pub fn alternatives(
             factors: predicted.factors,
             box_tests: predicted.box_tests,
         });
-        // The rays are the same; each meets every primitive.
+        // The rays are the same.
         let wishes = Options { engine: Engine::BruteForce, ..wishes };
         if let Some(scene) = prepare(imported, &wishes) {
-            let primitives = predicted.primitives as f64;
-            let intersection = seconds_per_test(&scene, predicted.primitives, cancel);
-            let factors = Factors { primitives, intersection, ..predicted.factors };
+            let timed = timed_tests(&scene, predicted.primitives, cancel);
+            let factors =
+                Factors { primitives: timed.per_ray, intersection: timed.seconds, ..predicted.factors };
             all.push(Alternative { engine: Engine::BruteForce, sampling, factors, box_tests: 0.0 });
         }
     }

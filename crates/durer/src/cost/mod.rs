@@ -40,7 +40,7 @@ pub struct Factors {
     pub temporal: f64,
     /// Points of the lens for each.
     pub focal: f64,
-    /// Eye ray and sharp rays that follow it.
+    /// Eye ray and sharp rays that follow it, parts of a ray on both sides of a surface that is not there one by one.
     pub tree: f64,
     /// Rays with those about blurred directions, by rays without.
     pub gloss: f64,
@@ -88,7 +88,8 @@ impl Factors {
         let (temporal, focal) = (f64::from(nesting.time.max(1)), f64::from(nesting.lens.max(1)));
         let rays = |kinds: &[RayKind]| kinds.iter().map(|&k| counters.rays(k)).sum::<u64>() as f64;
         let per = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
-        let sharp = rays(&[RayKind::Eye, RayKind::Reflection, RayKind::Refraction]);
+        // What continues a ray through a surface that is not there is no gloss.
+        let sharp = rays(&[RayKind::Eye, RayKind::Reflection, RayKind::Refraction, RayKind::Passing]);
         let eye = rays(&[RayKind::Eye]);
         let all = counters.all_rays() as f64;
         let seen = all - rays(&[RayKind::Shadow]);

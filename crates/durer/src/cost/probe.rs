@@ -2,7 +2,7 @@
 use std::sync::atomic::AtomicBool;
 
 use durer_accel::Engine;
-use durer_render::drive::{PartCount, scattered};
+use durer_render::drive::{Antialias, PartCount, scattered};
 
 use super::{Factors, FullTree};
 use crate::Prepared;
@@ -54,14 +54,22 @@ pub fn predict(prepared: &Prepared, cancel: &AtomicBool) -> Option<Predicted> {
     let step = (pixels.len() / TREES).max(1);
     let some: Vec<[u32; 2]> = pixels.iter().copied().step_by(step).collect();
     let tests_all = prepared.scene.accel.engine() == Engine::BruteForce;
-    let full = if tests_all { FullTree::of(prepared, &some) } else { None };
+    // Adaptive antialiasing takes as many samples as it finds that it needs.
+    let is_even = prepared.settings.antialias == Antialias::Supersample;
+    let full = if tests_all && is_even { FullTree::of(prepared, &some) } else { None };
+    let exact = |tree: FullTree| Factors {
+        supersamples: f64::from(prepared.settings.samples) / (probed.temporal * probed.focal),
+        tree: tree.rays(),
+        gloss: 1.0,
+        shadow: 1.0 + f64::from(tree.shadow_rays),
+        primitives: primitives as f64,
+        ..probed
+    };
+    // The few trees that were looked at may be full while others are not, and a shadow ray may be tested in pieces where
+    // it passes through things: the parameters are enough only if nothing that was counted disagrees.
+    let full = full.filter(|&tree| exact(tree).counts() == probed.counts());
     let (method, factors) = match full {
-        Some(tree) => {
-            let shadow = 1.0 + f64::from(tree.shadow_rays);
-            let exact =
-                Factors { tree: tree.rays(), gloss: 1.0, shadow, primitives: primitives as f64, ..probed };
-            (Method::Parameters(tree), exact)
-        }
+        Some(tree) => (Method::Parameters(tree), exact(tree)),
         None => (Method::Probe { pixels: part.pixels }, probed),
     };
     let boxes_per_ray = part.counters.node_tests as f64 / part.counters.all_rays().max(1) as f64;
@@ -71,8 +79,17 @@ pub fn predict(prepared: &Prepared, cancel: &AtomicBool) -> Option<Predicted> {
 /// Tests without a hierarchy that are timed.
 const TIMED_TESTS: u64 = 20_000_000;
 
-/// Seconds of a ray-primitive test, timed on a few pixels; 0 where there is nothing to test.
-pub(super) fn seconds_per_test(prepared: &Prepared, primitives: u64, cancel: &AtomicBool) -> f64 {
+/// Tests without a hierarchy, timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Timed {
+    /// Seconds of a ray-primitive test; 0 where there is nothing to test.
+    pub(super) seconds: f64,
+    /// Tests of a ray: all primitives, and all again for each piece of a shadow ray that passes through things.
+    pub(super) per_ray: f64,
+}
+
+/// Times tests without a hierarchy on a few pixels.
+pub(super) fn timed_tests(prepared: &Prepared, primitives: u64, cancel: &AtomicBool) -> Timed {
     let window = prepared.window();
     // Every sample takes at least its eye ray.
     let pixels =
@@ -80,7 +97,10 @@ pub(super) fn seconds_per_test(prepared: &Prepared, primitives: u64, cancel: &At
     let edge = (window.area() as f64 / pixels as f64).sqrt().ceil() as u32;
     let mut some = scattered(window, edge);
     some.truncate(pixels as usize);
-    let part = prepared.job().count(&some, cancel);
-    let tests = part.counters.primitive_tests;
-    if tests == 0 { 0.0 } else { part.busy.as_secs_f64() / tests as f64 }
+    let PartCount { counters, busy, .. } = prepared.job().count(&some, cancel);
+    let (tests, rays) = (counters.primitive_tests, counters.all_rays());
+    if tests == 0 || rays == 0 {
+        return Timed::default();
+    }
+    Timed { seconds: busy.as_secs_f64() / tests as f64, per_ray: tests as f64 / rays as f64 }
 }

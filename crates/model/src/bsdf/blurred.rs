@@ -12,6 +12,9 @@ use durer_core::{
 
 use super::{Branch, BranchKind, Branches, Drawn, Draws, Interface, ggx, gloss, lobe::mirrored, refract};
 
+/// Indices that differ by less are equal: floats are too coarse for the microfacet normal between directions so close.
+const MATCHED: f32 = 1e-4;
+
 /// How directions are spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blur {
@@ -51,6 +54,7 @@ impl Blurred {
                     self.interface.shares(wo.z.abs(), self.interface.eta_seen(wo));
                 if reflects { reflection } else { transmission }
             }
+            Blur::Microfacet { .. } if self.is_matched() => Spectrum::BLACK,
             Blur::Microfacet { alpha } => {
                 let (o, i, eta) = self.upright(wo, wi);
                 let Some(h) = half_vector(o, i, eta) else { return Spectrum::BLACK };
@@ -70,6 +74,7 @@ impl Blurred {
                 Some(axis) => spread_pdf(axis, transmission, wi),
                 None => 0.0,
             },
+            Blur::Microfacet { .. } if self.is_matched() => 0.0,
             Blur::Microfacet { alpha } => {
                 let (o, i, eta) = self.upright(wo, wi);
                 let Some(h) = half_vector(o, i, eta) else { return 0.0 };
@@ -101,6 +106,7 @@ impl Blurred {
                     _ => {}
                 }
             }
+            Blur::Microfacet { .. } if self.is_matched() => {}
             Blur::Microfacet { alpha } => self.draw_microfacet(wo, alpha, u, draws),
         }
     }
@@ -132,7 +138,9 @@ impl Blurred {
 
     /// The directions that are not spread at all.
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
-        if let Blur::Cosine { reflection, transmission } = self.blur {
+        if matches!(self.blur, Blur::Microfacet { .. }) && self.is_matched() {
+            self.interface.add_branches(wo, branches);
+        } else if let Blur::Cosine { reflection, transmission } = self.blur {
             let mut all = Branches::default();
             self.interface.add_branches(wo, &mut all);
             for branch in all.iter() {
@@ -146,6 +154,12 @@ impl Blurred {
             }
             branches.total_internal_reflection = all.total_internal_reflection;
         }
+    }
+
+    /// Whether the index is the same on both sides: microfacets of any direction let everything pass straight on, and a
+    /// normal cannot be told from the directions it refracts between.
+    fn is_matched(&self) -> bool {
+        (self.interface.eta - 1.0).abs() < MATCHED
     }
 
     fn refracted(&self, wo: Vector3) -> Option<Vector3> {

@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Job, lock};
+use super::{Job, adaptive::Sounding, lock};
 use crate::{Contribution, film::Tile, probe::Counters};
 
 /// What some pixels took.
@@ -39,26 +39,34 @@ pub fn scattered(window: Tile, edge: u32) -> Vec<[u32; 2]> {
 }
 
 impl Job<'_> {
-    /// Takes all samples of these pixels and counts; the picture is thrown away. Sums do not depend on threads.
+    /// Takes all samples of these pixels, of adaptive antialiasing a pixel's share of them, and counts; the picture is thrown away. Sums do not depend on threads.
     pub fn count(&self, pixels: &[[u32; 2]], cancel: &AtomicBool) -> PartCount {
         let next = AtomicUsize::new(0);
         let all = Mutex::new(PartCount::default());
+        let sounding = self.adaptive().map(|how| Sounding::new(self, how));
         let work = || {
             let cx = self.cx();
             let mut own = PartCount::default();
             let mut out = Contribution::default();
-            let start = Instant::now();
             while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
                 if cancel.load(Ordering::Relaxed) {
                     break;
                 }
+                own.pixels += 1;
+                if let Some(sounding) = &sounding {
+                    let (done, busy) = sounding.pixel(pixel);
+                    own.samples += done.samples;
+                    own.counters.merge(&done.counters.unwrap_or_default());
+                    own.busy += busy;
+                    continue;
+                }
+                let start = Instant::now();
                 for sample in 0..self.settings.samples {
                     self.integrator.count(&cx, self.eye(pixel, sample).0, &mut out, &mut own.counters);
                     own.samples += 1;
                 }
-                own.pixels += 1;
+                own.busy += start.elapsed();
             }
-            own.busy = start.elapsed();
             lock(&all).merge(&own);
         };
         std::thread::scope(|scope| {

@@ -26,7 +26,10 @@ mod spot;
 mod square;
 mod things;
 
-use std::sync::Mutex;
+use std::{
+    sync::Mutex,
+    time::{Duration, Instant},
+};
 
 use durer_core::{math::Point2, sampling::Sampler};
 
@@ -34,6 +37,7 @@ use super::{BadSample, Job, Rendered, TILE, TileDone, Watch, crew, lock, pass};
 use crate::{
     Contribution, PathRay,
     film::{Pixel, Tile},
+    probe::Counters,
 };
 use contrast::contrast;
 use lattice::Lattice;
@@ -235,6 +239,38 @@ impl Refine<'_> {
             }
         }
         (pixels, done)
+    }
+}
+
+/// What single pixels take, for those who want to know what a picture will.
+pub(super) struct Sounding<'a> {
+    job: &'a Job<'a>,
+    how: Adaptive,
+    things: Option<Things>,
+}
+
+impl<'a> Sounding<'a> {
+    pub(super) fn new(job: &'a Job<'a>, how: Adaptive) -> Self {
+        let things = (how.small_objects == SmallObjects::Found).then(|| Things::of(job)).flatten();
+        Self { job, how, things }
+    }
+
+    /// Counts the samples inside a pixel and one of its corners: a picture has as many corners as pixels but for a column
+    /// and a row. Then the time that it took, without that of the other corners.
+    pub(super) fn pixel(&self, [x, y]: [u32; 2]) -> (TileDone, Duration) {
+        let tile = Tile { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+        let lattice = Lattice::of_pixel(self.job, [x, y]);
+        let start = Instant::now();
+        let mut done = TileDone { counters: Some(Counters::default()), ..TileDone::default() };
+        let bad = BadSample { pixel: [x, y], sample: 0 };
+        value(self.job, [x * GRID, y * GRID], &mut Contribution::default(), &mut done, bad);
+        let search = self.things.as_ref().map(|things| Search::new(things, self.job, tile));
+        let spots = search.map_or_else(Vec::new, |search| search.spots([x, y]));
+        let mut canvas = Canvas::default();
+        let mut square = Square::new(self.job, &self.how, [x, y], &spots, &mut canvas, &mut done);
+        square.seen_by(self.things.as_ref());
+        square.refine(&lattice);
+        (done, start.elapsed())
     }
 }
 
