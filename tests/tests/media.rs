@@ -256,7 +256,7 @@ fn the_body_of_highest_priority_fills_every_place() {
         let prepared = eye(ALL, &world);
         let (_, rgb) = prepared.job().record([0, 0], 0);
         assert!(
-            (f64::from(rgb[0]) - (-depth).exp()).abs() < 2e-5,
+            (f64::from(rgb[0]) - (-depth).exp()).abs() < 3e-7,
             "{balls:?}: {} {}",
             rgb[0],
             (-depth).exp()
