@@ -105,10 +105,10 @@ fn glass_plates_dim_the_sky_as_all_orders_of_reflection_say_i10() {
     ];
     for (pixel, plates) in places {
         let (_, rgb) = prepared.job().record(pixel, 0);
-        for channel in 0..3 {
+        for (channel, value) in rgb.into_iter().enumerate() {
             let inside = (0..3).filter(|&p| plates[p]).map(|p| if p == channel { absorbed[p] } else { 1.0 });
             let expected = stack(&inside.collect::<Vec<_>>()).0;
-            let passed = f64::from(rgb[channel]) / 0.85;
+            let passed = f64::from(value) / 0.85;
             assert!((passed - expected).abs() < 0.004, "{pixel:?}, {plates:?}: {passed} {expected}");
         }
     }
