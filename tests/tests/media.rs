@@ -213,14 +213,6 @@ fn a_ball_absorbs_along_its_chord_i20() {
     }
 }
 
-#[test]
-fn nothing_comes_out_of_an_endless_absorbing_body() {
-    let water = "Material \"dielectric\" \"float eta\" 1.333 \"rgb absorption\" [0.1 0.1 0.1]\n\
-                 Shape \"plane\" \"point3 point\" [0 0 2] \"vector3 normal\" [0 0 -1]\n";
-    let value = seen(ALL, &(WHITE_SKY.to_owned() + water));
-    assert!((value - fresnel(1.333)).abs() < 1e-6, "only what is mirrored: {value}");
-}
-
 /// Where a straight line is among three balls: the body of the highest priority that contains the place.
 fn winner(balls: &[(f64, f64, i32)], z: f64) -> Option<i32> {
     let around = balls.iter().filter(|(centre, radius, _)| (z - centre).abs() < *radius);
@@ -256,7 +248,7 @@ fn the_body_of_highest_priority_fills_every_place() {
         let prepared = eye(ALL, &world);
         let (_, rgb) = prepared.job().record([0, 0], 0);
         assert!(
-            (f64::from(rgb[0]) - (-depth).exp()).abs() < 2e-5,
+            (f64::from(rgb[0]) - (-depth).exp()).abs() < 3e-7,
             "{balls:?}: {} {}",
             rgb[0],
             (-depth).exp()

@@ -71,15 +71,45 @@ fn the_mirrors_show_a_ball_and_five_images_i15() {
     assert_eq!(balls, 6);
 }
 
+/// What passes a stack of plates, and what it reflects, after all orders of reflection: plate after plate is put before it.
+fn stack(plates: &[f64]) -> (f64, f64) {
+    let r = 0.04f64;
+    plates.iter().fold((1.0, 0.0), |(passed, reflected), inside| {
+        let all = 1.0 - (r * inside).powi(2);
+        let (t, back) = ((1.0 - r).powi(2) * inside / all, r + r * (1.0 - r).powi(2) * inside * inside / all);
+        let between = 1.0 - back * reflected;
+        (t * passed / between, back + t * t * reflected / between)
+    })
+}
+
 #[test]
 fn glass_plates_dim_the_sky_as_all_orders_of_reflection_say_i10() {
+    // One plate: 0.9230769 passes, 0.0769231 is reflected; and the closed form for several.
+    assert!((stack(&[1.0]).0 - 0.923_076_9).abs() < 1e-7 && (stack(&[1.0]).1 - 0.076_923_1).abs() < 1e-7);
+    for k in 0..4 {
+        let closed = if k == 0 { 1.0 } else { 0.96 / (1.0 + f64::from(2 * k - 1) * 0.04) };
+        assert!((stack(&vec![1.0; k as usize]).0 - closed).abs() < 1e-12);
+    }
     let prepared = scene(text("glass-plate"), &Options { samples: Some(1), ..Options::default() });
-    for (plates, x) in [(0u32, 120), (1, 352), (2, 600), (3, 830)] {
-        let (_, rgb) = prepared.job().record([x, 289], 0);
-        let r = 0.04;
-        let expected =
-            if plates == 0 { 1.0 } else { (1.0 - r) / (1.0 + (2.0 * f64::from(plates) - 1.0) * r) };
-        let passed = f64::from(rgb[0]) / 0.85;
-        assert!((passed - expected).abs() < 0.006, "{plates} plates: {passed} {expected}");
+    // Cyan, magenta and yellow absorb one colour each, 12 cm long.
+    let absorbed = [11.0, 10.0, 14.0].map(|sigma: f64| (-0.12 * sigma).exp());
+    let places = [
+        ([90, 100], [false, false, false]),
+        ([260, 400], [true, false, false]),
+        ([700, 400], [false, true, false]),
+        ([480, 160], [false, false, true]),
+        ([480, 420], [true, true, false]),
+        ([380, 300], [true, false, true]),
+        ([590, 300], [false, true, true]),
+        ([480, 310], [true, true, true]),
+    ];
+    for (pixel, plates) in places {
+        let (_, rgb) = prepared.job().record(pixel, 0);
+        for (channel, value) in rgb.into_iter().enumerate() {
+            let inside = (0..3).filter(|&p| plates[p]).map(|p| if p == channel { absorbed[p] } else { 1.0 });
+            let expected = stack(&inside.collect::<Vec<_>>()).0;
+            let passed = f64::from(value) / 0.85;
+            assert!((passed - expected).abs() < 0.004, "{pixel:?}, {plates:?}: {passed} {expected}");
+        }
     }
 }

@@ -15,6 +15,6 @@ mod scene;
 mod view;
 
 pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
-pub use sample::{Contribution, Draw, PathRay, SampleCx, Value};
+pub use sample::{Contribution, PathRay, SampleCx, Value};
 pub use scene::{Object, Scene};
 pub use view::{CameraPlacement, View};

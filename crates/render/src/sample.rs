@@ -39,23 +39,18 @@ pub struct PathRay {
     pub sampler: Sampler,
     /// How many rays share the place of one, over all bounces: 1 unless rays were distributed.
     pub siblings: f32,
-    /// The draw that chose the direction; `None` where there was no choice.
-    pub draw: Option<Draw>,
+    /// The density of all draws together of the lobe that the direction was drawn from, 1/sr, which weighs a light that is
+    /// met against sampling the light; `None` where there was no choice.
+    pub density: Option<f32>,
+    /// The point of a surface that the ray leaves; rounding errors before its origin, on the way all the same. The origin
+    /// if it leaves none.
+    pub from: Point3,
     /// The transparent bodies that the ray starts in.
     pub media: MediumStack,
     /// Metres since the last bounce: above 0 for rays that passed a surface which is not there.
     pub walked: f32,
     /// Such surfaces since the last bounce.
     pub passed: u32,
-}
-
-/// A direction that was drawn: what weighs a light that it meets against sampling the light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Draw {
-    /// From here.
-    pub from: Point3,
-    /// Density of all draws of the lobe together, 1/sr.
-    pub density: f32,
 }
 
 impl PathRay {
@@ -68,15 +63,16 @@ impl PathRay {
             depth: 0,
             sampler,
             siblings: 1.0,
-            draw: None,
+            density: None,
+            from: ray.o,
             media: MediumStack::default(),
             walked: 0.0,
             passed: 0,
         }
     }
-    /// The `branch`-th ray spawned where this one ended, in the same bodies.
+    /// The `branch`-th ray spawned where this one ended, at `from`, in the same bodies.
     #[must_use]
-    pub fn child(&self, ray: Ray, weight: Spectrum, branch: u32) -> Self {
+    pub fn child(&self, (from, ray): (Point3, Ray), weight: Spectrum, branch: u32) -> Self {
         Self {
             ray,
             weight,
@@ -84,7 +80,8 @@ impl PathRay {
             depth: self.depth + 1,
             sampler: self.sampler.fork(branch),
             siblings: self.siblings,
-            draw: None,
+            density: None,
+            from,
             media: self.media,
             walked: 0.0,
             passed: 0,
@@ -93,8 +90,15 @@ impl PathRay {
     /// The continuation behind a surface that is not there, `walked` metres from where this one started: no bounce, and
     /// with the same random numbers.
     #[must_use]
-    pub fn passing(&self, ray: Ray, weight: Spectrum, media: MediumStack, walked: f32) -> Self {
+    pub fn passing(
+        &self,
+        (from, ray): (Point3, Ray),
+        weight: Spectrum,
+        media: MediumStack,
+        walked: f32,
+    ) -> Self {
         Self {
+            from,
             ray,
             weight,
             throughput: self.throughput * weight,

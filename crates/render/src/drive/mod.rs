@@ -265,6 +265,7 @@ impl<'a> Job<'a> {
         }
         done.samples += 1;
         done.rays += out.rays;
+        done.imbalances.add(&out.imbalances);
         film_value(cx, out)
     }
 }

@@ -127,8 +127,7 @@ impl Shading {
         let asked = LightCx { basis: cx.basis, time: self.time };
         let sample = cx.scene.lights[light].sample(&asked, self.surface.p, sampler)?;
         // Light from the other side of the true surface comes through frosted glass only, whatever the shading normal says.
-        let other_side = self.surface.is_outside(sample.wi) != self.surface.is_outside(self.wo);
-        if other_side && !self.bsdf.is_frosted() {
+        if self.side_of(sample.wi) == BranchKind::Transmission && !self.bsdf.is_frosted() {
             return None;
         }
         let wi = self.frame.to_local(sample.wi);
@@ -139,11 +138,18 @@ impl Shading {
         Some((f * wi.z.abs(), sample))
     }
 
+    /// Whether a ray that goes on in direction `d` stays on its side of the true surface or goes through.
+    pub(super) fn side_of(&self, d: Vector3) -> BranchKind {
+        match self.surface.is_outside(d) == self.surface.is_outside(self.wo) {
+            true => BranchKind::Reflection,
+            false => BranchKind::Transmission,
+        }
+    }
+
     /// Near silhouettes a shading normal can send a mirrored ray into the surface, or a refracted one out of it: such a
     /// direction is mirrored at the true surface.
     pub(super) fn keep_side(&self, d: Vector3, kind: BranchKind) -> Vector3 {
-        let same_side = self.surface.is_outside(d) == self.surface.is_outside(self.wo);
-        if same_side == (kind == BranchKind::Reflection) {
+        if self.side_of(d) == kind {
             return d;
         }
         let n = Vector3::from(self.surface.n_g);

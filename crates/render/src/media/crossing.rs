@@ -4,17 +4,20 @@
 //! counted at once. What counts as touching is what lies between the origins of the rays that leave to the two sides:
 //! [`TOUCHING`] rounding errors on each, as both surfaces may be off by one. Only bodies with priorities touch; the
 //! surfaces of others relate to what lies around them as pbrt has it.
+//!
+//! The account is known to be right on the ray only. Where two surfaces cross, the origin on its side, straight above the
+//! place of the hit, may lie on the other side of one of them: what lies between the ray and that origin counts too.
 use std::cell::RefCell;
 
 use durer_accel::{Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
-    math::{Ray, Vector3},
+    math::{Point3, Ray, Vector3},
 };
 use durer_model::{Medium, Surface, bsdf::BranchKind};
 
 use super::{Imbalance, MediumStack};
-use crate::{Object, PathRay, Scene};
+use crate::{Object, Scene};
 
 /// Rounding errors of a point, on each side of a surface, within which others touch it.
 const TOUCHING: f32 = 4.0;
@@ -30,20 +33,22 @@ pub(crate) enum Boundary {
     Passed,
 }
 
-/// Where a ray that met a surface and went through is.
+/// Where rays that leave a surface are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
     /// What the surface was.
     pub(crate) boundary: Boundary,
-    /// The bodies that the ray is in behind it.
+    /// The bodies that a ray is in which stays on this side.
+    front: MediumStack,
+    /// Those that a ray is in which went through.
     pub(crate) behind: MediumStack,
 }
 
 impl Crossing {
-    /// The bodies that a ray is in which follows `parent` on this side of the surface, or goes through it.
-    pub(crate) fn media(&self, branch: BranchKind, parent: &PathRay) -> MediumStack {
+    /// The bodies that a ray is in which stays on this side of the surface, or goes through it.
+    pub(crate) fn media(&self, branch: BranchKind) -> MediumStack {
         match branch {
-            BranchKind::Reflection => parent.media,
+            BranchKind::Reflection => self.front,
             BranchKind::Transmission => self.behind,
         }
     }
@@ -57,37 +62,49 @@ struct Skin {
     is_entered: bool,
 }
 
+impl Skin {
+    fn cross(&self, stack: &mut MediumStack) -> Result<(), Imbalance> {
+        if self.is_entered { stack.enter(self.medium) } else { stack.leave(self.medium) }
+    }
+}
+
 impl Scene {
-    /// Crosses the surface of `object` at `surface`, seen from `wo`, with all that touch it. Says what is wrong with the
-    /// account. Where surfaces can touch, `surface` grows an error bound that reaches beyond them.
+    /// Crosses the surface of `object` at `surface`, seen from `wo` by a ray that met nothing for `t` metres, with all that
+    /// touch it. Says what is wrong with the account. Where surfaces can touch, `surface` grows an error bound that reaches
+    /// beyond them.
     pub(crate) fn cross(
         &self,
         (object, surface): (Id<Object>, &mut Surface),
-        (wo, time): (Vector3, f32),
+        (wo, time, t): (Vector3, f32, f32),
         before: &MediumStack,
         mut complain: impl FnMut(Id<Object>, Imbalance),
     ) -> Crossing {
-        let mut behind = *before;
-        let Some(medium) = self.medium_of(object) else {
-            return Crossing { boundary: Boundary::Own, behind };
-        };
+        let mut crossing = Crossing { boundary: Boundary::Own, front: *before, behind: *before };
+        let Some(medium) = self.medium_of(object) else { return crossing };
         let skin = Skin { object, medium, is_entered: surface.is_outside(wo) };
         if self.media.get(medium).priority.is_none() {
-            let done = if skin.is_entered { behind.enter(medium) } else { behind.leave(medium) };
-            if let Err(imbalance) = done {
+            if let Err(imbalance) = skin.cross(&mut crossing.behind) {
                 complain(object, imbalance);
             }
-            return Crossing { boundary: Boundary::Own, behind };
+            return crossing;
         }
         surface.p_error = surface.p_error * TOUCHING;
-        let mut skins = self.touching(surface, (wo, time), object);
+        let n = surface.n_g;
+        let back = n.abs().dot(surface.p_error) / n.dot(wo).abs();
+        let on_ray = surface.p + wo * back.min(t);
+        let [front, behind] = [wo, -wo].map(|d| surface.spawn(d, time).o);
+        let mut skins = self.skins_between((on_ray, front), time, object);
+        for skin in &skins {
+            // What is wrong with the account here is so behind the surface too, and complained about there.
+            let _ = skin.cross(&mut crossing.front);
+        }
+        skins.append(&mut self.skins_between((front, behind), time, object));
         skins.push(skin);
+        let mut near = *before;
         // In an order that does not depend on the hierarchy. Who enters first: a shared wall is then no imbalance.
         skins.sort_by_key(|s| (!s.is_entered, s.object.index()));
-        let mut near = *before;
         for skin in &skins {
-            let done = if skin.is_entered { behind.enter(skin.medium) } else { behind.leave(skin.medium) };
-            if let Err(imbalance) = done {
+            if let Err(imbalance) = skin.cross(&mut crossing.behind) {
                 complain(skin.object, imbalance);
                 if imbalance == Imbalance::LeftUnentered {
                     // It must have been in there, whatever it knew. A full stack was complained about.
@@ -95,19 +112,21 @@ impl Scene {
                 }
             }
         }
-        let (near, far) = (near.present(&self.media), behind.present(&self.media));
-        let boundary = match near.medium == far.medium {
+        let (near, far) = (near.present(&self.media), crossing.behind.present(&self.media));
+        crossing.boundary = match near.medium == far.medium {
             true => Boundary::Passed,
             false => Boundary::Between(far.eta / near.eta),
         };
-        Crossing { boundary, behind }
+        crossing
     }
 
-    /// The surfaces of bodies with priorities that touch this one, but for those of its own object.
-    fn touching(&self, surface: &Surface, (wo, time): (Vector3, f32), object: Id<Object>) -> Vec<Skin> {
-        let (near, far) = (surface.spawn(wo, time).o, surface.spawn(-wo, time).o);
-        let (d, length) = ((far - near).normalize(), (far - near).length());
-        let ray = Ray { t_max: length, time, ..Ray::new(near, d) };
+    /// The surfaces of bodies with priorities between two places, but for those of this object.
+    fn skins_between(&self, (from, to): (Point3, Point3), time: f32, object: Id<Object>) -> Vec<Skin> {
+        let length = (to - from).length();
+        if length == 0.0 {
+            return Vec::new();
+        }
+        let ray = Ray { t_max: length, time, ..Ray::new(from, (to - from) / length) };
         let found = Touching { scene: self, ray: &ray, object, skins: RefCell::default() };
         self.accel.query(&ray).user(&found).closest();
         found.skins.into_inner()

@@ -24,15 +24,15 @@ impl<P: Probe> Walk<'_, P> {
         let mut count = 0;
         for branch in branches.iter() {
             let kind = RayKind::sharp(branch.kind);
-            let media = crossing.media(branch.kind, parent);
+            let media = crossing.media(branch.kind);
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
             let ray = s.surface.spawn(d, parent.ray.time);
-            let child = PathRay { media, ..parent.child(ray, branch.weight, count) };
+            let child = PathRay { media, ..parent.child((s.surface.p, ray), branch.weight, count) };
             radiance += branch.weight * self.trace(&child, kind, id);
             count += 1;
         }
         if let Some(weight) = branches.total_internal_reflection {
-            let child = parent.child(parent.ray, weight, count);
+            let child = parent.child((parent.from, parent.ray), weight, count);
             let refused = self.probe.ray(id, &child, RayKind::Refraction);
             self.probe.stop(refused, StopReason::TirNoRefraction, child.throughput);
             self.probe.result(refused, Spectrum::BLACK);

@@ -3,7 +3,7 @@ use durer_core::{sampling::Dim, spectrum::Spectrum};
 
 use super::{super::shading::Shading, Walk};
 use crate::{
-    Draw, PathRay,
+    PathRay,
     media::Crossing,
     probe::{Probe, RayKind},
 };
@@ -33,11 +33,11 @@ impl<P: Probe> Walk<'_, P> {
                 let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
                 let ray = s.surface.spawn(d, parent.ray.time);
                 let child = PathRay {
-                    media: crossing.media(branch.kind, parent),
+                    media: crossing.media(branch.kind),
                     sampler: sampler_of(Self::AFTER_LOBES + number),
-                    draw: Some(Draw { from: s.surface.p, density: drawn.pdf * rays as f32 }),
+                    density: Some(drawn.pdf * rays as f32),
                     siblings: parent.siblings * rays as f32,
-                    ..parent.child(ray, branch.weight / rays as f32, 0)
+                    ..parent.child((s.surface.p, ray), branch.weight / rays as f32, 0)
                 };
                 radiance += child.weight * self.trace(&child, kind, id);
             }

@@ -3,7 +3,7 @@ use durer_core::{sampling::Sampler, spectrum::Spectrum};
 use durer_model::bsdf::Seen;
 
 use super::{super::shading::Shading, Walk};
-use crate::{PathRay, probe::Probe};
+use crate::{PathRay, media::Crossing, probe::Probe};
 
 pub(super) use super::super::shading::LIGHT_BRANCH;
 
@@ -13,8 +13,8 @@ impl<P: Probe> Walk<'_, P> {
         &mut self,
         ray: &PathRay,
         s: &Shading,
-        id: P::Id,
-        mut radiance: Spectrum,
+        crossing: &Crossing,
+        (id, mut radiance): (P::Id, Spectrum),
     ) -> Spectrum {
         let cx = self.cx;
         let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
@@ -28,11 +28,11 @@ impl<P: Probe> Walk<'_, P> {
                 };
                 if sample.pdf.is_none() {
                     // There is but one way to a light without extent.
-                    radiance += weight * self.shadow(ray, s, light, weight, &sample, id);
+                    radiance += weight * self.shadow(ray, (s, crossing), light, weight, &sample, id);
                     break;
                 }
                 let weight = weight / self.rules.shadow_rays.max(1) as f32;
-                radiance += weight * self.shadow(ray, s, light, weight, &sample, id);
+                radiance += weight * self.shadow(ray, (s, crossing), light, weight, &sample, id);
             }
         }
         radiance
@@ -62,9 +62,9 @@ impl<P: Probe> Walk<'_, P> {
     /// What a light that was hit sends along the ray, by the share that sampling the light leaves to the ray.
     pub(super) fn lamp(&self, ray: &PathRay, s: &Shading) -> Spectrum {
         let Some(lamp) = &s.lamp else { return Spectrum::BLACK };
-        let share = ray.draw.map_or(1.0, |draw| {
-            let sampled = self.light_density(s.lamp_pdf(self.cx, lamp, draw.from));
-            draw.density / (draw.density + sampled)
+        let share = ray.density.map_or(1.0, |density| {
+            let sampled = self.light_density(s.lamp_pdf(self.cx, lamp, ray.from));
+            density / (density + sampled)
         });
         lamp.radiance * share
     }

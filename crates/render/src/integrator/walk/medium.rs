@@ -1,5 +1,8 @@
 //! The bodies along the way: where a ray is behind a surface, and what is absorbed before it.
-use durer_core::spectrum::Spectrum;
+use durer_core::{
+    math::{Point3, Ray},
+    spectrum::Spectrum,
+};
 
 use super::{super::shading::Shading, Walk};
 use crate::{
@@ -9,23 +12,33 @@ use crate::{
 };
 
 impl<P: Probe> Walk<'_, P> {
-    /// Where a ray that met `s` is if it goes through; counts what is wrong with its account.
-    pub(super) fn cross(&mut self, before: &MediumStack, s: &mut Shading) -> Crossing {
+    /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
+    pub(super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
         let imbalances = &mut self.imbalances;
         let complain = |object, imbalance| match imbalance {
             Imbalance::LeftUnentered => imbalances.add(object),
             Imbalance::TooDeep => imbalances.too_deep += 1,
         };
-        self.cx.scene.cross((s.object, &mut s.surface), (s.wo, s.time), before, complain)
+        self.cx.scene.cross((s.object, &mut s.surface), (s.wo, s.time, t), before, complain)
     }
 
-    /// The share of light that is left after `length` metres of a ray in these bodies.
-    pub(super) fn arriving(&self, bodies: &MediumStack, length: f32) -> Spectrum {
+    /// The share of light that is left of a ray in these bodies on its way from the surface point `from` to its parameter
+    /// `t`.
+    pub(super) fn arriving(&self, bodies: &MediumStack, from: Point3, ray: &Ray, t: f32) -> Spectrum {
         let media = &self.cx.scene.media;
         let present = bodies.present(media).medium.map(|id| media.get(id));
         match present.filter(|medium| medium.absorbs()) {
-            Some(medium) => medium.transmittance(self.cx.basis, length),
+            Some(medium) => medium.transmittance(self.cx.basis, way(from, ray, t)),
             None => Spectrum::ONE,
         }
     }
+}
+
+/// Metres from the surface point `from` to the parameter `t` of a ray that left it.
+///
+/// NUMERICS: rays start rounding errors beyond the surface that they leave. Without that way bodies are thinner than they
+/// are by as much at each of their surfaces, and always (the_body_of_highest_priority_fills_every_place).
+fn way(from: Point3, ray: &Ray, t: f32) -> f32 {
+    let length = ray.d.length();
+    (ray.o - from).dot(ray.d) / length + t * length
 }

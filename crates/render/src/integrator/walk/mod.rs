@@ -85,7 +85,8 @@ impl<'a, P: Probe> Walk<'a, P> {
 
     fn escape(&mut self, ray: &PathRay, id: P::Id) -> Spectrum {
         let cx = self.cx;
-        let sky = self.arriving(&ray.media, f32::INFINITY) * cx.scene.escaped(cx.basis, ray.ray.d);
+        let sky = self.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY)
+            * cx.scene.escaped(cx.basis, ray.ray.d);
         self.probe.local(id, sky);
         self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
         sky
@@ -95,12 +96,12 @@ impl<'a, P: Probe> Walk<'a, P> {
         let cx = self.cx;
         let mut s = Shading::at(cx, &ray.ray, hit);
         self.probe.surface(id, s.object, hit, &s.surface);
-        let crossing = self.cross(&ray.media, &mut s);
-        let arriving = self.arriving(&ray.media, hit.t);
+        let crossing = self.cross(&ray.media, &mut s, hit.t);
+        let arriving = self.arriving(&ray.media, ray.from, &ray.ray, hit.t);
         match crossing.boundary {
             Boundary::Passed => {
                 let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
-                let child = ray.passing(beyond, arriving, crossing.behind, hit.t);
+                let child = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
                 return arriving * self.trace(&child, RayKind::Passing, id);
             }
             Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
@@ -113,7 +114,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             radiance += s.blurred_sky(cx);
         }
         self.probe.local(id, radiance);
-        let radiance = self.lights(ray, &s, id, radiance);
+        let radiance = self.lights(ray, &s, &crossing, (id, radiance));
         let radiance = self.branches(ray, &s, &crossing, (id, radiance));
         match self.rules.gloss_rays {
             Some(rays) => self.gloss(ray, &s, &crossing, rays.get(), (id, radiance)),

@@ -13,7 +13,7 @@ use durer_model::{bsdf::Straight, light::LightSample};
 use super::{super::shading::Shading, MOST_PASSED, Walk, lights::LIGHT_BRANCH};
 use crate::{
     MediumStack, Object, PathRay,
-    media::Boundary,
+    media::{Boundary, Crossing},
     probe::{LightEvent, Probe, RayKind, StopReason},
 };
 
@@ -30,7 +30,7 @@ impl<P: Probe> Walk<'_, P> {
     pub(super) fn shadow(
         &mut self,
         parent: &PathRay,
-        s: &Shading,
+        (s, crossing): (&Shading, &Crossing),
         light: usize,
         weight: Spectrum,
         sample: &LightSample,
@@ -40,7 +40,8 @@ impl<P: Probe> Walk<'_, P> {
             Some(point) => s.surface.spawn_to(point, parent.ray.time),
             None => s.surface.spawn(sample.wi, parent.ray.time),
         };
-        let path = parent.child(ray, weight, LIGHT_BRANCH + light as u32);
+        let media = crossing.media(s.side_of(sample.wi));
+        let path = PathRay { media, ..parent.child((s.surface.p, ray), weight, LIGHT_BRANCH + light as u32) };
         let shadow = self.probe.ray(id, &path, RayKind::Shadow);
         self.rays += 1;
         let passage = match self.rules.shadows.straight() {
@@ -72,8 +73,8 @@ impl<P: Probe> Walk<'_, P> {
         let cx = self.cx;
         let ray = &path.ray;
         if !cx.scene.occluded(cx, ray, self.probe, shadow) {
-            let length = if ray.t_max.is_finite() { ray.d.length() } else { f32::INFINITY };
-            return Passage { share: self.arriving(&path.media, length), blocker: None };
+            let t = if ray.t_max.is_finite() { 1.0 } else { f32::INFINITY };
+            return Passage { share: self.arriving(&path.media, path.from, ray, t), blocker: None };
         }
         let blocker = if P::RECORDS { cx.scene.blocker(cx, ray) } else { None };
         Passage { share: Spectrum::BLACK, blocker }
@@ -82,21 +83,21 @@ impl<P: Probe> Walk<'_, P> {
     /// The way to a light at `to`, or infinitely far away, through what is transparent.
     fn passage(&mut self, path: &PathRay, to: Option<Point3>, how: Straight, shadow: P::Id) -> Passage {
         let cx = self.cx;
-        let mut ray = path.ray;
+        let (mut from, mut ray) = (path.from, path.ray);
         let mut bodies: MediumStack = path.media;
         let mut share = Spectrum::ONE;
         for _ in 0..MOST_PASSED {
-            let unit = ray.d.length();
             let Some(hit) = cx.scene.closest_in_the_way(cx, &ray, self.probe, shadow) else {
-                let length = if to.is_some() { unit } else { f32::INFINITY };
-                return Passage { share: share * self.arriving(&bodies, length), blocker: None };
+                let t = if to.is_some() { 1.0 } else { f32::INFINITY };
+                return Passage { share: share * self.arriving(&bodies, from, &ray, t), blocker: None };
             };
+            share *= self.arriving(&bodies, from, &ray, hit.t);
             // Surfaces expect a unit direction.
+            let unit = ray.d.length();
             let seen = Ray { d: ray.d / unit, ..ray };
             let hit = Hit { t: hit.t * unit, ..hit };
             let mut s = Shading::at(cx, &seen, &hit);
-            let crossing = self.cross(&bodies, &mut s);
-            share *= self.arriving(&bodies, hit.t);
+            let crossing = self.cross(&bodies, &mut s, hit.t);
             match crossing.boundary {
                 Boundary::Passed => {}
                 Boundary::Between(eta) => {
@@ -109,6 +110,7 @@ impl<P: Probe> Walk<'_, P> {
                 return Passage { share, blocker: Some(s.object) };
             }
             bodies = crossing.behind;
+            from = s.surface.p;
             ray = match to {
                 Some(point) => s.surface.spawn_to(point, ray.time),
                 None => s.surface.spawn(ray.d, ray.time),
