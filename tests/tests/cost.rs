@@ -123,7 +123,7 @@ fn before_the_sky_the_glass_plate_is_predicted_exactly() {
     let options = Options {
         engine: BRUTE,
         samples: Some(1),
-        crop: Some(Tile { x0: 260, y0: 300, x1: 340, y1: 380 }),
+        crop: Some(Tile { x0: 215, y0: 265, x1: 295, y1: 345 }),
         ..Options::default()
     };
     let (predicted, measured) = bill(&built_in("glass-plate", options));

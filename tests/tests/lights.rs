@@ -129,11 +129,13 @@ fn across_the_penumbra_square_and_disk_lights_fade_as_f2_says() {
 fn eyes_and_mirrors_see_the_radiance_of_a_light() {
     let lamp = "AreaLightSource \"diffuse\" \"rgb L\" [2 3.25 4] \"float scale\" 2 Shape \"sphere\"\n";
     let seen = |world: &str| radiance(&spot([0.0, 0.0, -5.0], [0.0, 0.0, 0.0], world), 4);
-    assert_eq!(seen(lamp), 6.5);
+    // A weighted mean of equal samples is off by their roundings.
+    let is = |got: f64, expected: f64| (got - expected).abs() <= 4.0 * f64::from(f32::EPSILON) * expected;
+    assert!(is(seen(lamp), 6.5));
     let mirror = "AttributeBegin Material \"mirror\" \"rgb reflectance\" [1 1 1] \
                   Shape \"disk\" \"float radius\" 9 AttributeEnd\n";
     let behind = format!("{mirror}AttributeBegin Translate 0 0 -20 {lamp} AttributeEnd\n");
-    assert_eq!(seen(&behind), 6.5);
+    assert!(is(seen(&behind), 6.5));
     // The inside does not shine, unless it is asked to, or turned out.
     let disk = |more: &str| format!("AreaLightSource \"diffuse\" {more} Shape \"disk\"\n");
     assert_eq!(seen(&disk("")), 0.0);

@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn it_hides_in_squares_that_it_touches_and_that_are_not_much_smaller() {
-        let spot = Spot { thing: 0, nearest: 1.0, center: [0.3, 0.6], radius: 0.25 };
+        let spot = Spot { thing: 0, nearest: 1.0, center: [0.3, 0.6], radius: 0.22 };
         assert!(spot.may_hide_in([0.0, 0.0], 1.0) && spot.may_hide_in([0.5, 0.5], 0.5));
         assert!(!spot.may_hide_in([0.75, 0.5], 0.25), "beside");
         assert!(!spot.may_hide_in([0.5, 0.0], 0.5), "near a corner");
