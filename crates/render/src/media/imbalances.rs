@@ -13,7 +13,7 @@ pub struct Imbalances {
     objects: [(u32, u32); Self::OBJECTS],
     /// At further objects.
     pub elsewhere: u32,
-    /// Bodies entered while a ray was in [`MediumStack::CAPACITY`] others.
+    /// Bodies entered while a ray was in [`CAPACITY`](super::MediumStack::CAPACITY) others.
     pub too_deep: u32,
 }
 
