@@ -203,7 +203,8 @@ fn highlights_are_blurred_along_the_path_of_their_ball_c7() {
                     let off = [0, 1].map(|i| f64::from(pixel[i]) + 0.5 - at[i]);
                     // The windows' image is two pixels wide.
                     assert!(off[0].hypot(off[1]) < 2.5, "{time}: {pixel:?}, expected {at:?}");
-                    assert!(node.result.max() > 10.0, "{time}: the windows shine into the room");
+                    // Sampling the window leaves the ray nearly half of what it sends.
+                    assert!(node.result.max() > 0.434 * 36.0, "{time}: the windows shine into the room");
                     found.push((pixel.map(f64::from), time));
                 }
             }

@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 use durer::{Options, Rendered, Show, builtin, glam::DVec3};
 use durer_tests::{bits, import, prepared, render, scene};
 
-/// A picture of one pixel, all of which is the point `at`, seen from `eye`.
+/// A picture of one pixel, all of which is the point `at`, seen from `eye`; all samples weigh exactly 1.
 fn spot(eye: [f64; 3], at: [f64; 3], world: &str) -> String {
     let [ex, ey, ez] = eye;
     let [ax, ay, az] = at;
     format!(
-        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\n\
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nPixelFilter \"box\"\n\
          LookAt {ex} {ey} {ez}  {ax} {ay} {az}  0.1 0.9 0.3\nCamera \"perspective\" \"float fov\" 0.0001\n\
          WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [1 1 1]\n{world}"
     )
@@ -129,13 +129,11 @@ fn across_the_penumbra_square_and_disk_lights_fade_as_f2_says() {
 fn eyes_and_mirrors_see_the_radiance_of_a_light() {
     let lamp = "AreaLightSource \"diffuse\" \"rgb L\" [2 3.25 4] \"float scale\" 2 Shape \"sphere\"\n";
     let seen = |world: &str| radiance(&spot([0.0, 0.0, -5.0], [0.0, 0.0, 0.0], world), 4);
-    // A weighted mean of equal samples is off by their roundings.
-    let is = |got: f64, expected: f64| (got - expected).abs() <= 4.0 * f64::from(f32::EPSILON) * expected;
-    assert!(is(seen(lamp), 6.5));
+    assert_eq!(seen(lamp), 6.5);
     let mirror = "AttributeBegin Material \"mirror\" \"rgb reflectance\" [1 1 1] \
                   Shape \"disk\" \"float radius\" 9 AttributeEnd\n";
     let behind = format!("{mirror}AttributeBegin Translate 0 0 -20 {lamp} AttributeEnd\n");
-    assert!(is(seen(&behind), 6.5));
+    assert_eq!(seen(&behind), 6.5);
     // The inside does not shine, unless it is asked to, or turned out.
     let disk = |more: &str| format!("AreaLightSource \"diffuse\" {more} Shape \"disk\"\n");
     assert_eq!(seen(&disk("")), 0.0);

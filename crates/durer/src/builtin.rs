@@ -64,7 +64,7 @@ pub const SCENES: &[Builtin] = &[
     },
     Builtin {
         name: "glass-plate",
-        doc: "one to three plates of glass before a white sky: what is left by all orders of reflection",
+        doc: "three plates of coloured glass before a white sky: what they leave by all orders of reflection",
         text: include_str!("../scenes/glass-plate.pbrt"),
     },
 ];

@@ -1,13 +1,10 @@
 //! A part of a picture, counted: what the whole will cost.
 use std::{
-    sync::{
-        Mutex,
-        atomic::{AtomicBool, AtomicUsize, Ordering},
-    },
+    sync::{Mutex, atomic::AtomicBool},
     time::{Duration, Instant},
 };
 
-use super::{Job, adaptive::Sounding, lock};
+use super::{Job, adaptive::Sounding, crew, lock};
 use crate::{Contribution, film::Tile, probe::Counters};
 
 /// What some pixels took.
@@ -39,43 +36,34 @@ pub fn scattered(window: Tile, edge: u32) -> Vec<[u32; 2]> {
 }
 
 impl Job<'_> {
-    /// Takes all samples of these pixels, of adaptive antialiasing a pixel's share of them, and counts; the picture is thrown away. Sums do not depend on threads.
+    /// Takes all samples of these pixels, of adaptive antialiasing a pixel's share of them, and counts; the picture is
+    /// thrown away. Sums do not depend on threads.
     pub fn count(&self, pixels: &[[u32; 2]], cancel: &AtomicBool) -> PartCount {
-        let next = AtomicUsize::new(0);
         let all = Mutex::new(PartCount::default());
         let sounding = self.adaptive().map(|how| Sounding::new(self, how));
-        let work = || {
-            let cx = self.cx();
-            let mut own = PartCount::default();
-            let mut out = Contribution::default();
-            while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-                if cancel.load(Ordering::Relaxed) {
-                    break;
-                }
-                own.pixels += 1;
-                if let Some(sounding) = &sounding {
+        crew::share_out(pixels, self.settings.threads, cancel, |pixel, out: &mut Contribution| {
+            let own = match &sounding {
+                Some(sounding) => {
                     let (done, busy) = sounding.pixel(pixel);
-                    own.samples += done.samples;
-                    own.counters.merge(&done.counters.unwrap_or_default());
-                    own.busy += busy;
-                    continue;
+                    let counters = done.counters.unwrap_or_default();
+                    PartCount { pixels: 1, samples: done.samples, counters, busy }
                 }
-                let start = Instant::now();
-                for sample in 0..self.settings.samples {
-                    self.integrator.count(&cx, self.eye(pixel, sample).0, &mut out, &mut own.counters);
-                    own.samples += 1;
-                }
-                own.busy += start.elapsed();
-            }
+                None => self.count_pixel(pixel, out),
+            };
             lock(&all).merge(&own);
-        };
-        std::thread::scope(|scope| {
-            for _ in 1..self.settings.threads.clamp(1, pixels.len().max(1)) {
-                scope.spawn(work);
-            }
-            work();
         });
         all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    fn count_pixel(&self, pixel: [u32; 2], out: &mut Contribution) -> PartCount {
+        let cx = self.cx();
+        let mut own = PartCount { pixels: 1, samples: self.settings.samples.into(), ..PartCount::default() };
+        let start = Instant::now();
+        for sample in 0..self.settings.samples {
+            self.integrator.count(&cx, self.eye(pixel, sample).0, out, &mut own.counters);
+        }
+        own.busy = start.elapsed();
+        own
     }
 }
 
