@@ -1,6 +1,6 @@
 //! Where an instance is, at each moment.
 use durer_core::glam::{DAffine3, DMat3, DVec3};
-use durer_core::math::{Bounds3, Motion, Ray, Transform};
+use durer_core::math::{Bounds3, Motion, Point3, Ray, Transform, Vector3};
 
 use crate::BuildError;
 
@@ -135,7 +135,7 @@ impl Pose {
         match self {
             Self::Identity => None,
             Self::Still(m) => Some(m.ray_back(ray)),
-            Self::Moving(_) => self.at(ray.time).map(|m| m.ray_back(ray)),
+            Self::Moving(keys) => Some(back(&interpolate(keys, ray.time), ray)),
         }
     }
     /// Box around everything an object inside `b` sweeps.
@@ -191,6 +191,17 @@ fn interpolate(keys: &[(f32, [[f32; 4]; 3])], time: f32) -> DAffine3 {
     }
 }
 
+/// A ray where `m` is undone, by Cramer's rule; of a singular `m` one that hits nothing. PERF: a rounded inverse would be
+/// made for one ray (bench render).
+fn back(m: &DAffine3, ray: &Ray) -> Ray {
+    let [a, b, c] = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis];
+    let rows = [b.cross(c), c.cross(a), a.cross(b)];
+    let inverse = 1.0 / a.dot(rows[0]);
+    let map = |v: DVec3| DVec3::new(rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)) * inverse;
+    let (o, d) = (map(ray.o.to_f64() - m.translation), map(ray.d.to_f64()));
+    Ray { o: Point3::from_f64(o), d: Vector3::from_f64(d), ..*ray }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -226,6 +237,25 @@ mod tests {
             let p = DVec3::new(0.3, -0.7, 0.9);
             let off = m.transform_point3(p) - motion.at(time.into()).transform_point3(p);
             assert!(off.length() < 5e-4, "{off} at {time}");
+        }
+    }
+
+    #[test]
+    fn a_ray_is_brought_back_to_where_it_was() {
+        let b = DAffine3::from_scale_rotation_translation(
+            DVec3::new(1.0, 2.0, 0.5),
+            DQuat::from_rotation_y(1.0),
+            DVec3::new(4.0, 0.0, -1.0),
+        );
+        let motion = Motion::keyed(vec![(0.0, DAffine3::IDENTITY), (1.0, b)]).expect("valid keys");
+        let pose = Pose::new(Placement::from_motion(&motion), 0).expect("valid placement");
+        for i in 0..=20 {
+            let time = i as f32 / 20.0;
+            let m = pose.at(time).expect("moves");
+            let own = Ray { time, ..Ray::new(Point3::new(0.5, 2.0, -3.0), Vector3::new(0.6, 0.0, 0.8)) };
+            let back = pose.object_ray(&m.ray(&own)).expect("moves");
+            let off = (back.o - own.o).length() + (back.d - own.d).length();
+            assert!(off < 1e-4, "{off} at {time}");
         }
     }
 

@@ -224,6 +224,8 @@ pub(crate) struct Window {
 impl Window {
     /// Of all of space.
     pub(crate) const ALL: Self = Self { near: f32::NEG_INFINITY, far: f32::INFINITY };
+    /// Of nothing.
+    pub(crate) const NONE: Self = Self { near: f32::INFINITY, far: f32::NEG_INFINITY };
 
     /// Whether a hit in `[t_min, t_max]` is possible. Equality counts: ties are decided by id, not by traversal.
     #[inline(always)]

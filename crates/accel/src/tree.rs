@@ -120,6 +120,15 @@ impl Forest {
             Trees::Moving { trees, .. } => trees,
         }
     }
+    /// The number of the only thing in it, if that is a shape and stands still.
+    #[inline]
+    pub(crate) fn sole(&self) -> Option<u32> {
+        let Trees::Still(Tree { root: Some(root), unbounded, .. }) = &self.trees else { return None };
+        match root.target() {
+            Target::Item(item) if unbounded.is_empty() => Some(item),
+            _ => None,
+        }
+    }
     pub(crate) fn bytes(&self) -> usize {
         self.trees().iter().map(Tree::bytes).sum()
     }

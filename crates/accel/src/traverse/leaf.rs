@@ -3,10 +3,9 @@ use std::marker::PhantomData;
 
 use super::{Best, Cx, Kernel, Level, Place, SCENE, boxes::BoxRay};
 use crate::{
-    Hit, PrimitiveHit,
     layout::{Link, PACKET, PacketRecord, Target},
     probe::Watch,
-    slab::{Window, greater},
+    slab::Window,
     space::Space,
     tree::Tree,
     triangle::{self, Found, Reach},
@@ -138,7 +137,7 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
     #[cold]
     #[inline(never)]
     fn wins_tie(&self, row: u32, packet: &R, lane: u32, best: &Best) -> bool {
-        self.wins(&self.lane(row, packet, lane), best)
+        self.cx.wins(&self.lane(row, packet, lane), best)
     }
 
     #[inline(always)]
@@ -158,11 +157,6 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         false
     }
 
-    /// Nearer, or as near with a smaller name.
-    fn wins(&self, hit: &Best, best: &Best) -> bool {
-        hit.t < best.t || (hit.t == best.t && self.cx.rank(&hit.place) < self.cx.rank(&best.place))
-    }
-
     /// Whether the ray may see this hit: mask, side and filter.
     #[cold]
     fn triangle_counts(&self, packet: &R, hit: &Best) -> bool {
@@ -178,48 +172,19 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
                 return false;
             }
         }
-        self.passes(instance, prim, hit)
-    }
-
-    /// Whether the caller's filter lets the hit count.
-    fn passes(&self, instance: u32, prim: u32, hit: &Best) -> bool {
-        let asks = self.cx.filters && self.cx.accel.instances[instance as usize].seen.is_filtered;
-        !asks || {
-            let (prim, u, v) = self.cx.accel.called(instance, prim, hit.u, hit.v);
-            let n_g = durer_core::math::Vector3::ZERO;
-            self.cx.callback.accepts(&Hit { t: hit.t, instance, prim, u, v, n_g })
-        }
+        self.cx.passes(instance, prim, hit)
     }
 
     #[inline(never)]
     fn item_nearest(&mut self, item: u32, best: &mut Best) {
-        let Some((instance, prim)) = self.item(item) else { return };
-        let ray = self.level.ray;
-        let found = self.cx.meet(instance, prim, ray, best.t);
-        let Some(PrimitiveHit { t, u, v }) = found else { return };
-        let Some(t) = self.admit(t, self.window(instance, prim), best.t) else { return };
-        let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
-        let hit = Best { t, u, v, place };
-        if self.wins(&hit, best) && self.passes(instance, prim, &hit) {
-            *best = hit;
-        }
+        let Some(name) = self.item(item) else { return };
+        self.cx.item_nearest((item, name), self.level, best, || self.window(name));
     }
 
     #[inline(never)]
     fn item_blocks(&mut self, item: u32, t_max: f32) -> bool {
-        let Some((instance, prim)) = self.item(item) else { return false };
-        let ray = self.level.ray;
-        if !self.cx.filters {
-            let blocks = self.cx.is_met(instance, prim, ray, t_max);
-            return blocks
-                && self.window(instance, prim).admits(ray.t_min, t_max)
-                && self.level.floor <= t_max;
-        }
-        let found = self.cx.meet(instance, prim, ray, t_max);
-        let Some(PrimitiveHit { t, u, v }) = found else { return false };
-        let Some(t) = self.admit(t, self.window(instance, prim), t_max) else { return false };
-        let place = Place { instance: self.level.instance, id: item, row: Place::NO_PACKET, lane: 0 };
-        self.passes(instance, prim, &Best { t, u, v, place })
+        let Some(name) = self.item(item) else { return false };
+        self.cx.item_blocks((item, name), self.level, t_max, || self.window(name))
     }
 
     /// The name of an item, if the ray may meet it.
@@ -233,38 +198,31 @@ impl<'a, K: Kernel, R: PacketRecord, W: Watch, const ROBUST: bool> Leaves<'a, K,
         Some((instance, prim))
     }
 
-    /// The stretch of the ray in an item's own box. PERF: asked of hits only; the node that holds the item has tested a
-    /// box that is hardly larger (bench render).
+    /// The stretch of the ray in an item's own box.
     #[inline(always)]
-    fn window(&self, instance: u32, prim: u32) -> Window {
+    fn window(&self, (instance, prim): (u32, u32)) -> Window {
         match self.cx.accel.items(instance).own_box(prim) {
             Some(own) => self.space.slab.window(&own),
             None => Window::ALL,
         }
     }
 
-    /// The `t` a hit at `t` counts with: not before the ray enters the boxes (see the crate's contract). `None` if that
-    /// leaves `[t_min, t_max]`.
-    fn admit(&self, t: f32, window: Window, t_max: f32) -> Option<f32> {
-        let t_min = self.level.ray.t_min;
-        let raised = greater(greater(t, window.near), self.level.floor);
-        let valid = window.admits(t_min, t_max) && t >= t_min && raised <= t_max;
-        valid.then_some(raised)
-    }
-
     #[inline(always)]
     fn instance_nearest(&mut self, index: u32, best: &mut Best) {
         let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
-        cx.enter(index, self.space, best.t, |level| {
-            kernel.nearest::<W, ROBUST>(cx, level, best, watch);
+        cx.enter(index, self.space, best.t, |level| match level.forest.sole() {
+            Some(item) => cx.sole_nearest::<W, ROBUST>(level, item, best, watch),
+            None => kernel.nearest::<W, ROBUST>(cx, level, best, watch),
         });
     }
 
     #[inline(always)]
     fn instance_blocks(&mut self, index: u32, t_max: f32) -> bool {
         let (kernel, cx, watch) = (self.kernel, self.cx, &mut *self.watch);
-        let blocked =
-            cx.enter(index, self.space, t_max, |level| kernel.blocked::<W, ROBUST>(cx, level, t_max, watch));
+        let blocked = cx.enter(index, self.space, t_max, |level| match level.forest.sole() {
+            Some(item) => cx.sole_blocks::<W, ROBUST>(level, item, t_max, watch),
+            None => kernel.blocked::<W, ROBUST>(cx, level, t_max, watch),
+        });
         blocked == Some(true)
     }
 }

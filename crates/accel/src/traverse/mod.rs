@@ -5,6 +5,7 @@
 mod blocked;
 mod boxes;
 mod exhaustive;
+mod item;
 mod kernel;
 mod leaf;
 mod near_miss;

@@ -2,7 +2,7 @@
 //!
 //! A piece is chosen in proportion to its area, by bisection of the sums; what is left of the random number goes on to the
 //! piece, so that strata of the number are strata of the light.
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use durer_core::{
     glam::{DAffine3, DVec3},
@@ -12,7 +12,8 @@ use durer_scene::Mesh;
 
 use super::{
     super::Track,
-    piece::{Chosen, Piece, choose_triangle, triangle_density},
+    piece::Piece,
+    placed::{Chosen, Placed, choose_triangle, mirrors, triangle_density},
     triangle,
 };
 use crate::shape::{Geometry, flat};
@@ -21,6 +22,8 @@ use crate::shape::{Geometry, flat};
 #[derive(Debug)]
 pub(super) struct Emitter {
     form: Form,
+    /// The pieces in their place if they stand still.
+    placed: Vec<Placed>,
     choice: Choice,
     track: Track,
     /// The outside is inside.
@@ -33,10 +36,8 @@ pub(super) struct Emitter {
 
 #[derive(Debug)]
 enum Form {
-    /// The parts of a shape that is no mesh, each with its pieces, one after another.
+    /// Pieces, and where those of each part of the shape begin.
     Pieces(Vec<Piece>, Vec<u32>),
-    /// One rectangle, in as many parts as a mesh happens to have.
-    Rectangle(Piece),
     /// Triangles.
     Mesh(Arc<Mesh>),
 }
@@ -58,63 +59,56 @@ impl Emitter {
         };
         let magnitude = track.stations().map(largest).fold(0.0, f64::max);
         let area = form.areas_at(&first).sum();
-        Ok(Self { form, choice, track, reversed, magnitude, area })
+        let placed = match &form {
+            Form::Pieces(pieces, _) if track.is_still() => pieces.iter().map(|p| p.placed(&first)).collect(),
+            _ => Vec::new(),
+        };
+        Ok(Self { form, placed, choice, track, reversed, magnitude, area })
     }
 
     /// A point of the light and how far, at most, each coordinate of its shape may be off as rays find it.
     pub(super) fn choose(&self, from: DVec3, time: f32, u: [f64; 2]) -> Option<(Chosen, f64)> {
-        let m = self.track.at(time);
         let (index, rest, share) = self.choice.pick(u[0]);
         let u = [rest, u[1]];
         let chosen = match &self.form {
-            Form::Pieces(pieces, _) => pieces[index].choose(&m, from, u)?,
-            Form::Rectangle(piece) => piece.choose(&m, from, u)?,
+            Form::Pieces(pieces, _) => match self.placed.get(index) {
+                Some(placed) => placed.choose(from, u)?,
+                None => pieces[index].placed(&self.track.at(time)).choose(from, u)?,
+            },
             Form::Mesh(mesh) => {
+                let m = self.track.at(time);
                 let corners = mesh_corners(mesh, index, time);
                 let chosen = choose_triangle(corners.map(|p| m.transform_point3(p)), from, u)?;
-                let turns = mesh_turns(mesh, index, corners);
-                Chosen { n: if turns { -chosen.n } else { chosen.n }, ..chosen }
+                let turned = mesh_turns(mesh, index, corners) != mirrors(&m);
+                Chosen { n: if turned { -chosen.n } else { chosen.n }, ..chosen }
             }
         };
-        // Corners that a mirroring placed are seen the other way round; other shapes bring their normals along.
-        let by_corners = match &self.form {
-            Form::Pieces(pieces, _) => matches!(pieces[index], Piece::Parallelogram(..) | Piece::Triangle(_)),
-            Form::Rectangle(_) | Form::Mesh(_) => true,
-        };
-        let turned = (by_corners && m.matrix3.determinant() < 0.0) != self.reversed;
-        let n = if turned { -chosen.n } else { chosen.n };
+        let n = if self.reversed { -chosen.n } else { chosen.n };
         Some((Chosen { n, density: chosen.density * share, ..chosen }, self.magnitude))
     }
 
     /// The density with which [`Emitter::choose`] gives the direction of a point of part `part`.
     pub(super) fn density(&self, from: DVec3, time: f32, (p, n, part): (DVec3, DVec3, u32)) -> f64 {
-        let m = self.track.at(time);
         let part = part as usize;
         match &self.form {
-            Form::Rectangle(piece) => piece.density(&m, from, p, n),
             Form::Mesh(mesh) => {
+                let m = self.track.at(time);
                 let corners = mesh_corners(mesh, part, time).map(|p| m.transform_point3(p));
                 self.choice.share(part) * triangle_density(corners, from, p)
             }
             Form::Pieces(pieces, starts) => {
+                let m = self.track.at(time);
+                let placed = |i: usize| match self.placed.get(i) {
+                    Some(placed) => Cow::Borrowed(placed),
+                    None => Cow::Owned(pieces[i].placed(&m)),
+                };
                 let first = starts.get(part).map_or(0, |i| *i as usize);
                 let end = starts.get(part + 1).map_or(pieces.len(), |i| *i as usize);
                 // A flat part of several triangles: the one that holds the point.
-                let index = (first..end).find(|&i| i + 1 == end || pieces[i].holds(&m, p)).unwrap_or(first);
-                self.choice.share(index) * pieces[index].density(&m, from, p, n)
+                let index = (first..end).find(|&i| i + 1 == end || placed(i).holds(p)).unwrap_or(first);
+                self.choice.share(index) * placed(index).density(from, p, n)
             }
         }
-    }
-}
-
-impl Piece {
-    /// Whether a point of the plane of a triangle lies in it; true for all else.
-    fn holds(&self, m: &DAffine3, p: DVec3) -> bool {
-        let Self::Triangle(corners) = self else { return true };
-        let [a, b, c] = corners.map(|p| m.transform_point3(p));
-        let n = (b - a).cross(c - a);
-        let inside = |a: DVec3, b: DVec3| (b - a).cross(p - a).dot(n) >= 0.0;
-        inside(a, b) && inside(b, c) && inside(c, a)
     }
 }
 
@@ -122,7 +116,8 @@ impl Form {
     fn of(geometry: &Geometry) -> Option<Self> {
         match geometry {
             Geometry::Mesh(mesh) => Some(match rectangle(mesh) {
-                Some(piece) => Self::Rectangle(piece),
+                // One piece, in as many parts as the mesh happens to have.
+                Some(piece) => Self::Pieces(vec![piece], Vec::new()),
                 None => Self::Mesh(Arc::clone(mesh)),
             }),
             Geometry::Shapes(parts) => {
@@ -154,7 +149,6 @@ impl Form {
     fn areas_at<'s>(&'s self, m: &'s DAffine3) -> Box<dyn Iterator<Item = f64> + 's> {
         match self {
             Self::Pieces(pieces, _) => Box::new(pieces.iter().map(|piece| piece.area(m))),
-            Self::Rectangle(piece) => Box::new(std::iter::once(piece.area(m))),
             Self::Mesh(mesh) => Box::new((0..mesh.indices.len()).map(|i| {
                 triangle::area(mesh_corners(mesh, i, f32::NEG_INFINITY).map(|p| m.transform_point3(p)))
             })),
@@ -164,7 +158,6 @@ impl Form {
     fn extent(&self) -> f64 {
         match self {
             Self::Pieces(pieces, _) => pieces.iter().map(Piece::extent).fold(0.0, f64::max),
-            Self::Rectangle(piece) => piece.extent(),
             Self::Mesh(mesh) => {
                 let keys = (0..mesh.keys()).flat_map(|key| mesh.key(key).1);
                 keys.fold(0.0, |largest, p| largest.max(p.to_f64().abs().max_element()))

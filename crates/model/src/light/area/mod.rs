@@ -6,6 +6,7 @@
 mod cone;
 mod emitter;
 mod piece;
+mod placed;
 mod rectangle;
 mod triangle;
 

@@ -1,8 +1,4 @@
-//! A piece of a light: what is chosen as a whole, then sampled in the best way known for it.
-//!
-//! Everything is in f64 and in render space: a placement is applied to corners where there are corners; other shapes are
-//! sampled by area in their own space, and their density is divided by what the placement does to an element of area, `|det M|
-//! |M^-T n|`.
+//! A piece of a light: what is chosen as a whole. See [`Placed`] for how it is sampled.
 use std::sync::Arc;
 
 use durer_core::{
@@ -11,22 +7,10 @@ use durer_core::{
 };
 
 use super::{
-    cone::Cone,
-    rectangle::SphericalRectangle,
-    triangle::{self, SphericalTriangle},
+    placed::{Placed, similarity},
+    triangle,
 };
 use crate::shape::{AreaPoint, Outline, Shape};
-
-/// A point chosen on a light.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen {
-    /// The point.
-    pub(super) p: DVec3,
-    /// Unit normal there, on the outside.
-    pub(super) n: DVec3,
-    /// Density of its direction, 1/sr.
-    pub(super) density: f64,
-}
 
 /// A piece in its own space.
 #[derive(Clone, Debug)]
@@ -45,9 +29,6 @@ pub(super) enum Piece {
     /// Anything that can be sampled by area.
     Curved(Arc<dyn Shape>),
 }
-
-/// Cosine up to which edges count as perpendicular: what rounding makes of a right angle.
-const PERPENDICULAR: f64 = 1e-6;
 
 impl Piece {
     /// The pieces of a shape; `None` if it is infinite.
@@ -86,136 +67,15 @@ impl Piece {
         }
     }
 
-    /// A point of it, chosen for `from`; `u` in `[0, 1)²`.
-    pub(super) fn choose(&self, m: &DAffine3, from: DVec3, u: [f64; 2]) -> Option<Chosen> {
+    /// The piece where `m` places it.
+    pub(super) fn placed(&self, m: &DAffine3) -> Placed {
         match self {
-            Self::Sphere { radius, shape } => match cone(*radius, m, from) {
-                Some(cone) => {
-                    let p = cone.point(u);
-                    Some(Chosen { p, n: (p - m.translation).normalize_or_zero(), density: cone.density() })
-                }
-                None => choose_by_area(&**shape, m, from, u),
-            },
-            Self::Curved(shape) => choose_by_area(&**shape, m, from, u),
-            Self::Triangle(corners) => choose_triangle(corners.map(|p| m.transform_point3(p)), from, u),
-            Self::Parallelogram(corner, edges) => {
-                let (corner, [e, f]) = placed(*corner, edges, m);
-                match rectangle(corner, [e, f], from) {
-                    Some(rectangle) => {
-                        let n = e.cross(f).normalize();
-                        Some(Chosen { p: rectangle.point(u), n, density: rectangle.density() })
-                    }
-                    None => choose_half(corner, [e, f], from, u),
-                }
-            }
+            Self::Sphere { radius, shape } => Placed::sphere(*radius, shape, m),
+            Self::Parallelogram(corner, edges) => Placed::parallelogram(*corner, edges, m),
+            Self::Triangle(corners) => Placed::triangle(*corners, m),
+            Self::Curved(shape) => Placed::curved(shape, m),
         }
     }
-
-    /// The density with which [`Piece::choose`] gives, for `from`, the direction of `p`, a point of it with unit normal
-    /// `n`. 1/sr.
-    pub(super) fn density(&self, m: &DAffine3, from: DVec3, p: DVec3, n: DVec3) -> f64 {
-        match self {
-            Self::Sphere { radius, shape } => {
-                let Some(cone) = cone(*radius, m, from) else {
-                    return density_by_area(&**shape, m, from, p, n);
-                };
-                // The far side is hidden by the near one.
-                let is_near = (p - m.translation).dot(from - p) > 0.0;
-                if is_near { cone.density() } else { 0.0 }
-            }
-            Self::Curved(shape) => density_by_area(&**shape, m, from, p, n),
-            Self::Triangle(corners) => triangle_density(corners.map(|p| m.transform_point3(p)), from, p),
-            Self::Parallelogram(corner, edges) => {
-                let (corner, [e, f]) = placed(*corner, edges, m);
-                if let Some(rectangle) = rectangle(corner, [e, f], from) {
-                    return rectangle.density();
-                }
-                let n = e.cross(f);
-                let along = |a: DVec3| (p - corner).cross(a).dot(n).abs() / n.length_squared();
-                let half = usize::from(along(f) + along(e) > 1.0);
-                0.5 * triangle_density(halves(corner, [e, f])[half], from, p)
-            }
-        }
-    }
-}
-
-/// The factor by which `m` enlarges everything; `None` if it stretches.
-fn similarity(m: &DAffine3) -> Option<f64> {
-    let [x, y, z] = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis];
-    let scale2 = x.length_squared();
-    let is = |value: f64, expected: f64| (value - expected).abs() <= PERPENDICULAR * scale2;
-    let uniform = is(y.length_squared(), scale2) && is(z.length_squared(), scale2);
-    (uniform && is(x.dot(y), 0.0) && is(y.dot(z), 0.0) && is(z.dot(x), 0.0)).then(|| scale2.sqrt())
-}
-
-fn cone(radius: f64, m: &DAffine3, from: DVec3) -> Option<Cone> {
-    Cone::of(m.translation, radius * similarity(m)?, from)
-}
-
-fn placed(corner: DVec3, edges: &[DVec3; 2], m: &DAffine3) -> (DVec3, [DVec3; 2]) {
-    (m.transform_point3(corner), edges.map(|e| m.transform_vector3(e)))
-}
-
-fn rectangle(corner: DVec3, edges: [DVec3; 2], from: DVec3) -> Option<SphericalRectangle> {
-    let [e, f] = edges;
-    let is_rectangle = e.dot(f).abs() <= PERPENDICULAR * (e.length_squared() * f.length_squared()).sqrt();
-    if is_rectangle { SphericalRectangle::of(corner, edges, from) } else { None }
-}
-
-fn halves(corner: DVec3, [e, f]: [DVec3; 2]) -> [[DVec3; 3]; 2] {
-    [[corner, corner + e, corner + f], [corner + e, corner + e + f, corner + f]]
-}
-
-fn choose_half(corner: DVec3, edges: [DVec3; 2], from: DVec3, u: [f64; 2]) -> Option<Chosen> {
-    let half = usize::from(u[0] >= 0.5);
-    let u = [(2.0 * u[0] - half as f64).clamp(0.0, 1.0), u[1]];
-    let chosen = choose_triangle(halves(corner, edges)[half], from, u)?;
-    Some(Chosen { density: 0.5 * chosen.density, ..chosen })
-}
-
-/// A point of a triangle in render space.
-pub(super) fn choose_triangle(corners: [DVec3; 3], from: DVec3, u: [f64; 2]) -> Option<Chosen> {
-    let n = triangle::normal(corners)?;
-    match SphericalTriangle::of(corners, from) {
-        Some(seen) => Some(Chosen { p: seen.point(u)?, n, density: seen.density() }),
-        None => {
-            let p = triangle::point_by_area(corners, u);
-            by_angle(p, n, 1.0 / triangle::area(corners), from)
-        }
-    }
-}
-
-/// The density with which [`choose_triangle`] gives the direction of `p`, a point of the triangle.
-pub(super) fn triangle_density(corners: [DVec3; 3], from: DVec3, p: DVec3) -> f64 {
-    match (SphericalTriangle::of(corners, from), triangle::normal(corners)) {
-        (Some(seen), _) => seen.density(),
-        (None, Some(n)) => {
-            by_angle(p, n, 1.0 / triangle::area(corners), from).map_or(0.0, |chosen| chosen.density)
-        }
-        (None, None) => 0.0,
-    }
-}
-
-/// A point that was chosen with a density over area, in 1/m²; `None` if it is seen edge on.
-fn by_angle(p: DVec3, n: DVec3, by_area: f64, from: DVec3) -> Option<Chosen> {
-    let d = p - from;
-    let cos_times_distance = d.dot(n).abs();
-    let density = by_area * d.length_squared() * d.length() / cos_times_distance;
-    density.is_finite().then_some(Chosen { p, n, density })
-}
-
-fn choose_by_area(shape: &dyn Shape, m: &DAffine3, from: DVec3, u: [f64; 2]) -> Option<Chosen> {
-    let AreaPoint { p, n, density } = shape.by_area(point2(u))?;
-    let n = m.matrix3.inverse().transpose() * n;
-    let growth = m.matrix3.determinant().abs() * n.length();
-    by_angle(m.transform_point3(p), n.normalize_or_zero(), density / growth, from)
-}
-
-fn density_by_area(shape: &dyn Shape, m: &DAffine3, from: DVec3, p: DVec3, n: DVec3) -> f64 {
-    let back = m.inverse();
-    let density = shape.area_density(back.transform_point3(from), back.transform_point3(p));
-    let growth = m.matrix3.determinant().abs() / (m.matrix3.transpose() * n).length();
-    by_angle(p, n, density / growth, from).map_or(0.0, |chosen| chosen.density)
 }
 
 /// The mean over a grid of what an element of area becomes.
