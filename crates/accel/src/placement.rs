@@ -1,6 +1,6 @@
 //! Where an instance is, at each moment.
 use durer_core::glam::{DAffine3, DMat3, DVec3};
-use durer_core::math::{Bounds3, Motion, Point3, Ray, Transform, Vector3};
+use durer_core::math::{Bounds3, Guide, Motion, Point3, Ray, Transform, Vector3};
 
 use crate::BuildError;
 
@@ -82,8 +82,16 @@ fn segments(a: &DAffine3, b: &DAffine3) -> u32 {
 pub(crate) enum Pose {
     Identity,
     Still(Transform),
-    /// Matrices by rows, as they were given. In f32, for there may be hundreds of thousands of keys.
-    Moving(Vec<(f32, [[f32; 4]; 3])>),
+    Moving(Keys),
+}
+
+/// Keys of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Keys {
+    /// Seconds, and matrices by rows, as they were given. In f32, for there may be hundreds of thousands.
+    pub(crate) keys: Vec<(f32, [[f32; 4]; 3])>,
+    /// To the seconds.
+    guide: Guide,
 }
 
 impl Pose {
@@ -107,7 +115,11 @@ impl Pose {
                 match keys.as_slice() {
                     [] => Err(BuildError::MotionKeyInvalid { instance, key: 0 }),
                     [(_, only)] => Self::new(Placement::Still(*only), instance),
-                    _ => Ok(Self::Moving(keys.iter().map(|(t, m)| (*t, *m.rows())).collect())),
+                    _ => {
+                        let times: Vec<f32> = keys.iter().map(|key| key.0).collect();
+                        let keys = keys.iter().map(|(t, m)| (*t, *m.rows())).collect();
+                        Ok(Self::Moving(Keys { keys, guide: Guide::new(&times) }))
+                    }
                 }
             }
         }
@@ -123,7 +135,7 @@ impl Pose {
         match self {
             Self::Identity => None,
             Self::Still(m) => Some(*m),
-            Self::Moving(keys) => Some(Transform::from_f64(&interpolate(keys, time))),
+            Self::Moving(keys) => Some(Transform::from_f64(&keys.at(time))),
         }
     }
     /// Whether it stands still and left and right change places.
@@ -135,7 +147,7 @@ impl Pose {
         match self {
             Self::Identity => None,
             Self::Still(m) => Some(m.ray_back(ray)),
-            Self::Moving(keys) => Some(back(&interpolate(keys, ray.time), ray)),
+            Self::Moving(keys) => Some(back(&keys.at(ray.time), ray)),
         }
     }
     /// Box around everything an object inside `b` sweeps.
@@ -151,15 +163,16 @@ impl Pose {
         match self {
             Self::Identity => *b,
             Self::Still(m) => of(m),
-            Self::Moving(keys) => {
-                keys.iter().fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&matrix(&k.1)))))
-            }
+            Self::Moving(keys) => keys
+                .keys
+                .iter()
+                .fold(Bounds3::EMPTY, |all, k| all.union(of(&Transform::from_f64(&matrix(&k.1))))),
         }
     }
     /// Heap memory held.
     pub(crate) fn bytes(&self) -> usize {
         match self {
-            Self::Moving(keys) => std::mem::size_of_val(keys.as_slice()),
+            Self::Moving(keys) => size_of_val(keys.keys.as_slice()) + keys.guide.bytes(),
             _ => 0,
         }
     }
@@ -171,23 +184,23 @@ pub(crate) fn matrix(rows: &[[f32; 4]; 3]) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
 }
 
-/// Element by element between the keys around `time`; f64 so that the inverse keeps f32 accuracy.
-fn interpolate(keys: &[(f32, [[f32; 4]; 3])], time: f32) -> DAffine3 {
-    let after = keys.partition_point(|k| k.0 <= time);
-    if after == 0 {
-        return matrix(&keys[0].1);
-    }
-    let (t0, a) = (keys[after - 1].0, matrix(&keys[after - 1].1));
-    let Some((t1, b)) = keys.get(after).map(|key| (key.0, matrix(&key.1))) else { return a };
-    let u = f64::from(time - t0) / f64::from(t1 - t0);
-    let (m, n) = (&a.matrix3, &b.matrix3);
-    DAffine3 {
-        matrix3: DMat3::from_cols(
-            m.x_axis.lerp(n.x_axis, u),
-            m.y_axis.lerp(n.y_axis, u),
-            m.z_axis.lerp(n.z_axis, u),
-        ),
-        translation: a.translation.lerp(b.translation, u),
+impl Keys {
+    /// Element by element between the keys around `time`; f64 so that the inverse keeps f32 accuracy.
+    fn at(&self, time: f32) -> DAffine3 {
+        let keys = &self.keys;
+        let after = self.guide.upto(time, keys.len(), |i| keys[i].0);
+        if after == 0 {
+            return matrix(&keys[0].1);
+        }
+        let (t0, a) = &keys[after - 1];
+        let Some((t1, b)) = keys.get(after) else { return matrix(a) };
+        let u = f64::from(time - t0) / f64::from(t1 - t0);
+        let mean = |i: usize, j: usize| {
+            let (a, b) = (f64::from(a[i][j]), f64::from(b[i][j]));
+            a + (b - a) * u
+        };
+        let column = |j: usize| DVec3::new(mean(0, j), mean(1, j), mean(2, j));
+        DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
     }
 }
 

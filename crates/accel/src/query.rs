@@ -197,54 +197,40 @@ impl<'a> Cx<'a> {
     fn closest<W: Watch>(&self, ray: &Ray, watch: &mut W) -> Option<Hit> {
         let t_max = end(ray)?;
         let mut best = Best { t: t_max, u: 0.0, v: 0.0, place: Place::NOWHERE };
-        self.nearest_in(&self.accel.scene, ray, &mut best, watch);
-        if self.accel.movers.is_some() {
-            self.nearest_mover(ray, &mut best, watch);
+        let (best, level) = (&mut best, self.scene(ray));
+        if self.exhaustive {
+            for forest in std::iter::once(level.forest).chain(level.movers) {
+                exhaustive_nearest(self, &Level { forest, ..level }, best, watch);
+            }
+        } else {
+            dispatch!(self.accel, kernel, ROBUST => kernel.nearest::<W, ROBUST>(self, &level, best, watch));
         }
-        self.hit(ray, &best)
+        self.hit(ray, best)
     }
 
     #[inline(never)]
     fn any<W: Watch>(&self, ray: &Ray, watch: &mut W) -> bool {
         let Some(t_max) = end(ray) else { return false };
-        let found = self.blocked_in(&self.accel.scene, ray, t_max, watch);
-        match self.accel.movers {
-            Some(_) if !found || self.exhaustive => self.mover_blocks(ray, t_max, watch) || found,
-            _ => found,
-        }
-    }
-
-    /// Offers the hits in a tree of the scene.
-    #[inline(always)]
-    fn nearest_in<W: Watch>(&self, forest: &Forest, ray: &Ray, best: &mut Best, watch: &mut W) {
-        let level = Level { ray, forest, instance: SCENE, floor: f32::MIN };
+        let level = self.scene(ray);
         if self.exhaustive {
-            exhaustive_nearest(self, &level, best, watch);
-        } else {
-            dispatch!(self.accel, kernel, ROBUST => kernel.nearest::<W, ROBUST>(self, &level, best, watch));
+            let mut found = false;
+            for forest in std::iter::once(level.forest).chain(level.movers) {
+                found |= exhaustive_blocked(self, &Level { forest, ..level }, t_max, watch);
+            }
+            return found;
         }
+        dispatch!(self.accel, kernel, ROBUST => kernel.blocked::<W, ROBUST>(self, &level, t_max, watch))
     }
 
+    /// The trees of the scene, that of what moves behind that of all else.
     #[inline(always)]
-    fn blocked_in<W: Watch>(&self, forest: &Forest, ray: &Ray, t_max: f32, watch: &mut W) -> bool {
-        let level = Level { ray, forest, instance: SCENE, floor: f32::MIN };
-        if self.exhaustive {
-            exhaustive_blocked(self, &level, t_max, watch)
-        } else {
-            dispatch!(self.accel, kernel, ROBUST => kernel.blocked::<W, ROBUST>(self, &level, t_max, watch))
-        }
-    }
-
-    #[inline(never)]
-    fn nearest_mover<W: Watch>(&self, ray: &Ray, best: &mut Best, watch: &mut W) {
-        if let Some(movers) = &self.accel.movers {
-            self.nearest_in(&movers.forest, ray, best, watch);
-        }
-    }
-
-    #[inline(never)]
-    fn mover_blocks<W: Watch>(&self, ray: &Ray, t_max: f32, watch: &mut W) -> bool {
-        self.accel.movers.as_ref().is_some_and(|movers| self.blocked_in(&movers.forest, ray, t_max, watch))
+    fn scene<'l>(&self, ray: &'l Ray) -> Level<'l>
+    where
+        'a: 'l,
+    {
+        let accel: &'a Accel = self.accel;
+        let movers = accel.movers.as_ref().map(|movers| &movers.forest);
+        Level { ray, forest: &accel.scene, movers, instance: SCENE, floor: f32::MIN }
     }
 
     /// What callers get to see.

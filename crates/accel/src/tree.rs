@@ -1,5 +1,5 @@
 //! Trees: nodes first, packets after them, in one stretch of memory.
-use durer_core::math::Bounds3;
+use durer_core::math::{Bounds3, Segment};
 
 use crate::{
     layout::{Link, NodeWriter, Target},
@@ -12,6 +12,8 @@ pub(crate) struct Tree {
     pub(crate) pages: Pages,
     /// Where walks begin; `None` if nothing has a finite box.
     pub(crate) root: Option<Link>,
+    /// The number of the only thing with a finite box, if that is a shape.
+    pub(crate) sole: Option<u32>,
     /// Nodes, which fill the first rows.
     pub(crate) nodes: u32,
     /// Rows of each.
@@ -36,6 +38,7 @@ impl Tree {
         Self {
             pages: Pages::zeroed(0),
             root: None,
+            sole: None,
             nodes: 0,
             node_rows: 1,
             unbounded: Vec::new(),
@@ -108,6 +111,17 @@ impl Forest {
         let coordinates = corners.into_iter().flatten().map(f32::abs).filter(|x| x.is_finite());
         self.region = coordinates.fold(0.0, f32::max);
     }
+    /// The tree that holds at `time`, and how far its stretch has gone.
+    #[inline(always)]
+    pub(crate) fn tree(&self, time: f32) -> (&Tree, f32) {
+        match &self.trees {
+            Trees::Still(tree) => (tree, 0.0),
+            Trees::Moving { times, trees } => {
+                let at = Segment::at(time, times.len(), |i| times[i]);
+                (&trees[at.key], at.u)
+            }
+        }
+    }
     pub(crate) fn trees(&self) -> &[Tree] {
         match &self.trees {
             Trees::Still(tree) => std::slice::from_ref(tree),
@@ -123,9 +137,8 @@ impl Forest {
     /// The number of the only thing in it, if that is a shape and stands still.
     #[inline]
     pub(crate) fn sole(&self) -> Option<u32> {
-        let Trees::Still(Tree { root: Some(root), unbounded, .. }) = &self.trees else { return None };
-        match root.target() {
-            Target::Item(item) if unbounded.is_empty() => Some(item),
+        match &self.trees {
+            Trees::Still(tree) if tree.unbounded.is_empty() => tree.sole,
             _ => None,
         }
     }

@@ -48,7 +48,16 @@ fn lay_out<N: NodeWriter, R: PacketRecord>(
     let root = Some(Link::new(Target::Node(0)));
     let is_cut = wide.order.len() != subject.len();
     let depth = written.levels;
-    Ok(Tree { pages, root, nodes: nodes as u32, node_rows, is_cut, bounds, depth, ..Tree::empty() })
+    let sole = match wide.children.as_slice() {
+        [only] if only.count == 1 && !is_packet(subject, wide, only) => {
+            match subject.link(wide.order[only.first as usize]).target() {
+                Target::Item(item) => Some(item),
+                _ => None,
+            }
+        }
+        _ => None,
+    };
+    Ok(Tree { pages, root, sole, nodes: nodes as u32, node_rows, is_cut, bounds, depth, ..Tree::empty() })
 }
 
 /// How many packets lie in front of those below each node, then how many there are.

@@ -4,7 +4,7 @@ use durer_core::math::{Bounds3, Transform, Vector3};
 use super::subject::Stretch;
 use crate::{
     accel::{Instance, Movers},
-    placement::Pose,
+    placement::{Keys, Pose},
     slab::{extent, grown},
 };
 
@@ -15,7 +15,7 @@ const STRETCHES_MAX: usize = 8;
 pub(super) fn times(instances: &[Instance], moving: &[u32]) -> Vec<f32> {
     let (mut first, mut last, mut pieces) = (f32::INFINITY, f32::NEG_INFINITY, 1);
     for &index in moving {
-        if let Pose::Moving(keys) = &instances[index as usize].pose {
+        if let Pose::Moving(Keys { keys, .. }) = &instances[index as usize].pose {
             first = first.min(keys.first().map_or(first, |key| key.0));
             last = last.max(keys.last().map_or(last, |key| key.0));
             pieces = pieces.max(keys.len() - 1);
@@ -43,7 +43,7 @@ pub(super) fn stretch(pose: &Pose, object: &Bounds3, a: f32, b: f32) -> Stretch 
     let (mut low, mut high) = ([0f32; 3], [0f32; 3]);
     let inside = |time: &f32| a < *time && *time < b;
     let keys: Vec<f32> = match pose {
-        Pose::Moving(keys) => keys.iter().map(|key| key.0).filter(inside).collect(),
+        Pose::Moving(keys) => keys.keys.iter().map(|key| key.0).filter(inside).collect(),
         Pose::Identity | Pose::Still(_) => Vec::new(),
     };
     for time in keys {

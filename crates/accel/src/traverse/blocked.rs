@@ -17,17 +17,24 @@ pub(crate) fn blocked<K: Kernel, W: Watch, const ROBUST: bool>(
     t_max: f32,
     watch: &mut W,
 ) -> bool {
-    let tree = level.tree();
-    enter_space!(space, ROBUST, level.ray, level.forest.region);
-    match &level.forest.trees {
-        Trees::Still(_) => {
-            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
-            walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
-        }
-        Trees::Moving { .. } => {
-            let mut leaves =
-                Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
-            walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
+    enter_space!(space, ROBUST, level.ray, level.region());
+    let (mut forest, mut movers) = (level.forest, level.movers);
+    loop {
+        let tree = forest.tree(level.ray.time);
+        let at = (level, &space);
+        let is_blocked = match &forest.trees {
+            Trees::Still(_) => {
+                let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, at, tree, watch);
+                walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
+            }
+            Trees::Moving { .. } => {
+                let mut leaves = Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, at, tree, watch);
+                walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, t_max)
+            }
+        };
+        match movers.take() {
+            Some(next) if !is_blocked => forest = next,
+            _ => return is_blocked,
         }
     }
 }

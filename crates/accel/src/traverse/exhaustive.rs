@@ -30,7 +30,7 @@ pub(crate) fn exhaustive_blocked<W: Watch>(
 }
 
 fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: &mut Best, watch: &mut W) {
-    let (tree, moment) = level.tree();
+    let (tree, moment) = level.forest.tree(level.ray.time);
     enter_space!(world, true, level.ray, level.forest.region);
     for &link in &tree.leaves {
         if let Target::Instance(index) = Link::target(link) {
@@ -49,7 +49,7 @@ fn all_nearest<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, best: 
 }
 
 fn all_blocked<R: PacketRecord, W: Watch>(cx: &Cx<'_>, level: &Level<'_>, t_max: f32, watch: &mut W) -> bool {
-    let (tree, moment) = level.tree();
+    let (tree, moment) = level.forest.tree(level.ray.time);
     enter_space!(world, true, level.ray, level.forest.region);
     let mut blocked = false;
     for &link in &tree.leaves {

@@ -12,14 +12,14 @@ mod near_miss;
 mod nearest;
 mod shape;
 
-use durer_core::math::{Ray, Segment};
+use durer_core::math::Ray;
 
 use crate::{
     Accel,
     accel::Instance,
     slab::{Window, greater},
     space::Space,
-    tree::{Forest, Tree, Trees},
+    tree::Forest,
     user::Callback,
 };
 
@@ -50,10 +50,13 @@ pub(crate) struct Cx<'a> {
 pub(crate) const SCENE: u32 = u32::MAX;
 
 /// A ray in a tree's own space.
+#[derive(Clone, Copy)]
 pub(crate) struct Level<'a> {
     /// In the tree's own space. Borrowed. PERF: a ray just written in parts and copied as a whole stalls (bench render).
     pub(crate) ray: &'a Ray,
     pub(crate) forest: &'a Forest,
+    /// The trees of what moves, in the same space. PERF: walked with what is prepared for the first (bench render).
+    pub(crate) movers: Option<&'a Forest>,
     /// Whose tree it is, or [`SCENE`].
     pub(crate) instance: u32,
     /// Hits nearer than this count as if they were here.
@@ -61,16 +64,10 @@ pub(crate) struct Level<'a> {
 }
 
 impl Level<'_> {
-    /// The tree that holds at the ray's time, and how far its stretch has gone.
+    /// The largest coordinate of what the ray may meet.
     #[inline(always)]
-    pub(crate) fn tree(&self) -> (&Tree, f32) {
-        match &self.forest.trees {
-            Trees::Still(tree) => (tree, 0.0),
-            Trees::Moving { times, trees } => {
-                let at = Segment::at(self.ray.time, times.len(), |i| times[i]);
-                (&trees[at.key], at.u)
-            }
-        }
+    pub(crate) fn region(&self) -> f32 {
+        self.movers.map_or(self.forest.region, |movers| greater(movers.region, self.forest.region))
     }
 }
 
@@ -136,7 +133,7 @@ impl Cx<'_> {
         let forest = self.accel.geometries[instance.geometry.index()].forest.as_ref()?;
         let object_ray = instance.pose.object_ray(world.ray);
         let ray = object_ray.as_ref().unwrap_or(world.ray);
-        Some(visit(&Level { ray, forest, instance: index, floor: greater(floor, f32::MIN) }))
+        Some(visit(&Level { ray, forest, movers: None, instance: index, floor: greater(floor, f32::MIN) }))
     }
 
     /// The same, if the ray enters the box before `t_max`.

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use durer_core::glam::DVec3;
 use durer_core::math::{Bounds3, Ray, Transform};
 
-use super::{Level, SCENE};
+use super::SCENE;
 use crate::{
     Accel,
     layout::{Link, MovingNode, MovingPacket, Node, NodePlanes, Packet, PacketRecord, Target},
@@ -97,8 +97,7 @@ struct Site<'a> {
 
 impl Search<'_> {
     fn forest(&mut self, instance: u32, forest: &Forest, place: Option<Transform>) {
-        let level = Level { ray: self.ray, forest, instance, floor: f32::MIN };
-        let (tree, moment) = level.tree();
+        let (tree, moment) = forest.tree(self.ray.time);
         let site = Site { tree, instance, moment, place };
         let gate = Gate::new(self.ray, site.place.as_ref(), forest.region);
         match (&forest.trees, self.accel.registers.width()) {

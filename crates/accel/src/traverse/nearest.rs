@@ -18,18 +18,23 @@ pub(crate) fn nearest<K: Kernel, W: Watch, const ROBUST: bool>(
     best: &mut Best,
     watch: &mut W,
 ) {
-    let tree = level.tree();
-    enter_space!(space, ROBUST, level.ray, level.forest.region);
-    match &level.forest.trees {
-        Trees::Still(_) => {
-            let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
-            walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, best);
+    enter_space!(space, ROBUST, level.ray, level.region());
+    let (mut forest, mut movers) = (level.forest, level.movers);
+    loop {
+        let tree = forest.tree(level.ray.time);
+        let at = (level, &space);
+        match &forest.trees {
+            Trees::Still(_) => {
+                let mut leaves = Leaves::<K, Packet, W, ROBUST>::new(kernel, cx, at, tree, watch);
+                walk::<K, K::Node, Packet, W, ROBUST>(kernel, tree.0, &mut leaves, best);
+            }
+            Trees::Moving { .. } => {
+                let mut leaves = Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, at, tree, watch);
+                walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, best);
+            }
         }
-        Trees::Moving { .. } => {
-            let mut leaves =
-                Leaves::<K, MovingPacket, W, ROBUST>::new(kernel, cx, (level, &space), tree, watch);
-            walk::<K, K::Moving, MovingPacket, W, ROBUST>(kernel, tree.0, &mut leaves, best);
-        }
+        let Some(next) = movers.take() else { return };
+        forest = next;
     }
 }
 

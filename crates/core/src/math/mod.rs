@@ -7,6 +7,7 @@ mod bounds;
 pub mod error;
 pub mod float;
 mod frame;
+mod guide;
 mod interval;
 mod keys;
 mod motion;
@@ -16,6 +17,7 @@ mod vector;
 
 pub use bounds::Bounds3;
 pub use frame::Frame;
+pub use guide::Guide;
 pub use interval::Interval;
 pub use keys::Segment;
 pub use motion::Motion;

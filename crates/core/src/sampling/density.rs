@@ -1,16 +1,15 @@
 //! Drawing from a density that is a polygon: `g` is linear between values at equal steps, and its integral is inverted
 //! exactly (Physically Based Rendering, 4th edition, section A.4.4, in a form that does not cancel).
 
+use crate::math::Guide;
+
 /// A density over `[0, n]` for `n + 1` values. It need not be normalised.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearDensity {
     /// The value at the ends of the steps, and the integral up to there.
     nodes: Vec<[f32; 2]>,
-    /// For each of equal parts of the integral a step at or before the one in which it begins (Chen and Asau 1974, "On
-    /// Generating Random Variates from an Empirical Distribution").
-    guide: Vec<u32>,
-    /// Parts for each unit of the integral.
-    parts: f32,
+    /// To the integrals.
+    guide: Guide,
 }
 
 impl LinearDensity {
@@ -24,12 +23,11 @@ impl LinearDensity {
             }
             nodes.push([value, area as f32]);
         }
-        let parts = (nodes.len() as f64 / area) as f32;
-        // A rounding may put a place at the end of a part into the next.
-        let begin = |part: usize| part as f32 / parts * (1.0 - 4.0 * f32::EPSILON);
-        let step = |part: usize| nodes.partition_point(|node| node[1] <= begin(part)).max(1) as u32;
-        let guide = (0..=nodes.len()).map(step).collect();
-        (area > 0.0 && area.is_finite()).then_some(Self { nodes, guide, parts })
+        if !(area > 0.0 && area.is_finite()) {
+            return None;
+        }
+        let integrals: Vec<f32> = nodes.iter().map(|node| node[1]).collect();
+        Some(Self { nodes, guide: Guide::new(&integrals) })
     }
 
     /// The place that number `u` in `[0, 1]` is drawn to, as a share of all the steps.
@@ -43,11 +41,7 @@ impl LinearDensity {
     pub fn sample(&self, u: f32) -> (f32, f32) {
         let last = self.nodes.len() - 1;
         let area = u * self.nodes[last][1];
-        let mut end = self.guide[((area * self.parts) as usize).min(last)] as usize;
-        while end < last && self.nodes[end][1] <= area {
-            end += 1;
-        }
-        let step = end.min(last) - 1;
+        let step = self.guide.upto(area, last, |i| self.nodes[i][1]).clamp(1, last) - 1;
         let ([f0, before], [f1, _]) = (self.nodes[step], self.nodes[step + 1]);
         // The t in [0, 1] with f0 t + (f1 - f0) t^2 / 2 = rest.
         let rest = area - before;
@@ -81,21 +75,6 @@ mod tests {
             let (k, t) = (i / 10, (i % 10) as f64 / 10.0 + 0.05);
             let expected = (f64::from(values[k]) * (1.0 - t) + f64::from(values[k + 1]) * t) * 0.1 / total;
             assert!((count - expected).abs() < 1e-4, "bin {i}: {count}, expected {expected}");
-        }
-    }
-
-    #[test]
-    fn the_guide_leads_to_the_step_that_bisection_finds() {
-        let values: Vec<f32> =
-            (0..300).map(|i| ((i * 7919) % 97) as f32 * 1e-3 + if i == 40 { 50.0 } else { 0.0 }).collect();
-        let density = LinearDensity::new(values).expect("sound");
-        let last = density.nodes.len() - 1;
-        for i in 0..=100_000 {
-            let u = i as f32 / 100_000.0;
-            let area = u * density.nodes[last][1];
-            let step = density.nodes.partition_point(|node| node[1] <= area).clamp(1, last) - 1;
-            let (place, _) = density.sample(u);
-            assert!(place >= step as f32 && place <= (step + 1) as f32, "{u}: {place} is not in step {step}");
         }
     }
 

@@ -93,7 +93,7 @@ fn pose_stretch(pose: &Pose) -> f64 {
     match pose {
         Pose::Identity => 1.0,
         Pose::Still(place) => sphere_stretch(&place.to_f64()),
-        Pose::Moving(keys) => keys.iter().map(|key| sphere_stretch(&matrix(&key.1))).fold(0.0, f64::max),
+        Pose::Moving(keys) => keys.keys.iter().map(|key| sphere_stretch(&matrix(&key.1))).fold(0.0, f64::max),
     }
 }
 
