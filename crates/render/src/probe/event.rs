@@ -118,11 +118,11 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// That of the only direction of a sharp lobe.
-    pub fn sharp(lobe: &'static str) -> Self {
+    /// That of the only direction of a sharp lobe without a name.
+    pub fn sharp() -> Self {
         Self {
             by: ChosenBy::Sharp,
-            lobe: Some(lobe),
+            lobe: None,
             f: None,
             cos: None,
             pdf: None,

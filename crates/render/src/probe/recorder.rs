@@ -28,6 +28,11 @@ impl<'a> Recorder<'a> {
         Self { cx: *cx, detail, tree: RayTree::default(), chosen: None, begun: Vec::new() }
     }
 
+    /// How the ray came about that is traced next.
+    pub fn chose(&mut self, choice: &Choice) {
+        self.chosen = Some(*choice);
+    }
+
     /// The tree. `value` is what the film got: if it is infinite or NaN, the film leaves the sample out.
     pub fn finish(mut self, value: &[f32; 3]) -> RayTree {
         if !value.iter().all(|v| v.is_finite())
@@ -81,7 +86,7 @@ impl Probe for Recorder<'_> {
         self.tree.nodes.len() >= self.detail.rays
     }
     fn chosen(&mut self, choice: &Choice) {
-        self.chosen = Some(*choice);
+        self.chose(choice);
     }
     fn ray(&mut self, parent: NodeId, ray: &PathRay, kind: RayKind) -> NodeId {
         let chosen = self.chosen.take();
