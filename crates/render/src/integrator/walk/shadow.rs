@@ -111,6 +111,7 @@ impl<P: Probe> Walk<'_, P> {
                 return Passage { share, blocker: None, end: StopReason::Absorbed };
             };
             share *= self.arriving(&bodies, from, &ray, hit.t);
+            let is_absorbed = share.is_black();
             // Surfaces expect a unit direction.
             let unit = ray.d.length();
             let seen = Ray { d: ray.d / unit, ..ray };
@@ -126,7 +127,10 @@ impl<P: Probe> Walk<'_, P> {
                 Boundary::Own => share *= s.bsdf.straight(s.wo_local, how),
             }
             if share.is_black() {
-                return Passage { share, blocker: Some(s.object), end: StopReason::LightOccluded };
+                return match is_absorbed {
+                    true => Passage { share, blocker: None, end: StopReason::Absorbed },
+                    false => Passage { share, blocker: Some(s.object), end: StopReason::LightOccluded },
+                };
             }
             bodies = crossing.behind;
             from = s.surface.p;
