@@ -107,8 +107,12 @@ impl<P: Probe> Walk<'_, P> {
             choice.random = Some(RandomNumbers::two(Dim::Light, [u.x, u.y]));
             choice.rays = self.rules.shadow_rays.max(1);
             let seen = self.seen(pdf);
-            let counted = s.bsdf.eval_shared(s.wo_local, wi, seen).mean();
-            choice.mis = (f.mean() > 0.0).then(|| counted / f.mean());
+            let counted = s.bsdf.eval_shared(s.wo_local, wi, seen);
+            let mis = if f.mean() > 0.0 { counted.mean() / f.mean() } else { 1.0 };
+            choice.mis = Some(mis);
+            if mis > 0.0 {
+                choice.f = Some(counted / mis);
+            }
             if let Seen::Draws { .. } = seen {
                 let of_lobes = s.bsdf.lobes().filter_map(|lobe| {
                     let own = lobe.pdf(s.wo_local, wi)?;
