@@ -7,10 +7,12 @@ mod adaptive;
 mod crew;
 mod part;
 mod pass;
+mod record;
 mod settings;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use part::{PartCount, scattered};
+pub use record::KilledMap;
 pub use settings::{Nesting, Settings};
 
 use std::sync::{
@@ -24,7 +26,7 @@ use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
-    probe::{Counters, RayTree},
+    probe::Counters,
 };
 
 /// Edge of a tile in pixels.
@@ -144,27 +146,6 @@ impl<'a> Job<'a> {
     /// taking them.
     pub fn sample_count(&self, pixel: [u32; 2]) -> u32 {
         self.adaptive().map_or(self.settings.samples, |how| adaptive::places(self, &how, pixel).len() as u32)
-    }
-
-    /// The ray tree of one sample, made by running it again, watched; and the linear RGB that the film stores of it.
-    /// Of adaptive antialiasing it is the `sample`-th place of the pixel: first its corners, upper left, upper right,
-    /// lower left and lower right; then, for each split, what its square lacks of the middles of its upper and left edges,
-    /// its centre and the middles of its right and lower edges, before the four parts are looked at in the order of the
-    /// corners; a part that is not split may have one more, somewhere inside. An empty tree and black if the pixel has no such sample there.
-    pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
-        let mut tree = RayTree::default();
-        let mut out = Contribution::default();
-        let cx = self.cx();
-        let ray = match self.adaptive() {
-            None => Some(self.eye(pixel, sample).0),
-            Some(how) => adaptive::places(self, &how, pixel)
-                .get(sample as usize)
-                .map(|&place| adaptive::eye(self, place)),
-        };
-        if let Some(ray) = ray {
-            self.integrator.record(&cx, ray, &mut out, &mut tree);
-        }
-        (tree, film_value(&cx, &out).unwrap_or([0.0; 3]))
     }
 
     /// Steps that a [`Progress`] is told of in all: samples, or of adaptive antialiasing corners and pixels.
