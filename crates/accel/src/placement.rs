@@ -2,6 +2,8 @@
 use durer_core::glam::{DAffine3, DMat3, DVec3};
 use durer_core::math::{Bounds3, Guide, Motion, Point3, Ray, Transform, Vector3};
 
+use wide::f32x4;
+
 use crate::BuildError;
 
 /// How a geometry is placed in render space.
@@ -185,7 +187,7 @@ pub(crate) fn matrix(rows: &[[f32; 4]; 3]) -> DAffine3 {
 }
 
 impl Keys {
-    /// Element by element between the keys around `time`; f64 so that the inverse keeps f32 accuracy.
+    /// Element by element between the keys around `time`.
     fn at(&self, time: f32) -> DAffine3 {
         let keys = &self.keys;
         let after = self.guide.upto(time, keys.len(), |i| keys[i].0);
@@ -194,13 +196,12 @@ impl Keys {
         }
         let (t0, a) = &keys[after - 1];
         let Some((t1, b)) = keys.get(after) else { return matrix(a) };
-        let u = f64::from(time - t0) / f64::from(t1 - t0);
-        let mean = |i: usize, j: usize| {
-            let (a, b) = (f64::from(a[i][j]), f64::from(b[i][j]));
-            a + (b - a) * u
+        let u = f32x4::splat((time - t0) / (t1 - t0));
+        let mean = |a: [f32; 4], b: [f32; 4]| {
+            let a = f32x4::new(a);
+            (a + (f32x4::new(b) - a) * u).to_array()
         };
-        let column = |j: usize| DVec3::new(mean(0, j), mean(1, j), mean(2, j));
-        DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+        matrix(&[mean(a[0], b[0]), mean(a[1], b[1]), mean(a[2], b[2])])
     }
 }
 

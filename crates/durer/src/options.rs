@@ -7,7 +7,7 @@ use durer_render::{
     compile::LensOptions,
     drive::Antialias,
     film::Tile,
-    integrator::{Sampling, Shadows, Show},
+    integrator::{Lights, Sampling, Shadows, Show},
 };
 use durer_scene::Missing;
 
@@ -16,6 +16,8 @@ use durer_scene::Missing;
 pub struct Distribution {
     /// Rays to each light with extent, per hit.
     pub shadow_rays: Option<u32>,
+    /// Which lights get them.
+    pub lights: Option<Lights>,
     /// Rays about each blurred direction, per hit.
     pub gloss_rays: Option<u32>,
     /// Moments in the time the shutter is open.

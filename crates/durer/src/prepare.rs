@@ -209,7 +209,7 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
 
 /// What the options ask of an integrator: a name for people, the parameter and its value.
 fn wishes(options: &Options) -> Vec<(&'static str, &'static str, ValueType, Data)> {
-    let Distribution { shadow_rays, gloss_rays, time_samples, lens_samples, aa_samples, sampling } =
+    let Distribution { shadow_rays, lights, gloss_rays, time_samples, lens_samples, aa_samples, sampling } =
         options.distribution;
     let text = |word: &str| (ValueType::String, Data::Strings(vec![word.to_owned()]));
     let int = |n: u32| (ValueType::Integer, Data::Ints(vec![n.min(i32::MAX as u32) as i32]));
@@ -220,6 +220,7 @@ fn wishes(options: &Options) -> Vec<(&'static str, &'static str, ValueType, Data
         ("the contribution limit", "mincontribution", options.min_contribution.map(float)),
         ("what transparent things do to shadows", "shadows", options.shadows.map(|s| text(s.word()))),
         ("the number of shadow rays", "shadowrays", shadow_rays.map(int)),
+        ("the choice of lights", "lights", lights.map(|l| text(l.word()))),
         ("the number of gloss rays", "glossrays", gloss_rays.map(int)),
         ("the number of moments", "timesamples", time_samples.map(int)),
         ("the number of lens points", "lenssamples", lens_samples.map(int)),

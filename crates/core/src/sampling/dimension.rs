@@ -15,6 +15,8 @@ pub enum Dim {
     Light,
     /// Direction of a scattered ray.
     Scatter,
+    /// Which light.
+    LightChoice,
 }
 
 impl Dim {
@@ -26,6 +28,7 @@ impl Dim {
             Self::Lens => "lens",
             Self::Light => "light",
             Self::Scatter => "scatter",
+            Self::LightChoice => "light-choice",
         }
     }
 }

@@ -103,7 +103,14 @@ impl Sampler {
     #[inline]
     pub fn d1(&self, dim: Dim) -> f32 {
         let place = match self.kind {
-            SamplerKind::Sobol | SamplerKind::Independent => return self.d2(dim).x,
+            // PERF: only half of the point (bench render).
+            SamplerKind::Sobol => {
+                let h = combine(self.key, dim as u64);
+                let shuffled = sobol::owen_scramble(self.index, h as u32);
+                let scramble = combine(h, 1) as u32;
+                return unit_float(sobol::owen_scramble(sobol::dimension0(shuffled), scramble));
+            }
+            SamplerKind::Independent => return self.d2(dim).x,
             SamplerKind::Stratified => Place::Random,
             SamplerKind::Regular => Place::Centre,
         };

@@ -58,4 +58,7 @@ impl Light for Distant {
         let (_, direction) = self.anchor.at(cx.time);
         (!weight.is_black()).then_some(LightSample { wi: -direction, point: None, weight, pdf: None })
     }
+    fn reach(&self, _p: Point3, _time: f32) -> f32 {
+        self.irradiance.luminance()
+    }
 }

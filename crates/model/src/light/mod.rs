@@ -68,6 +68,12 @@ pub trait Light: Debug + Send + Sync {
         let _ = (cx, p, sampler);
         None
     }
+    /// A cheap estimate of the irradiance at `p` on a surface that faces the light, by which one light is chosen among
+    /// several: above 0 wherever [`Light::sample`] may give something. W/m², in luminance.
+    fn reach(&self, p: Point3, time: f32) -> f32 {
+        let _ = (p, time);
+        1.0
+    }
     /// The density with which [`Light::sample`], asked at `from`, gives the direction of a point of this light, 1/sr; 0 if
     /// that side of it does not shine, and for lights that rays cannot meet.
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {

@@ -53,4 +53,8 @@ impl Light for Point {
         let weight = cx.basis.emission(self.intensity) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
+    fn reach(&self, p: Point3, time: f32) -> f32 {
+        let towards = self.falloff.towards(self.anchor.at(time).0, p);
+        towards.map_or(0.0, |(_, irradiance)| self.intensity.luminance() * irradiance)
+    }
 }

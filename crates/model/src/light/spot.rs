@@ -93,4 +93,10 @@ impl Light for Spot {
         let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
+    fn reach(&self, p: Point3, time: f32) -> f32 {
+        let (position, axis) = self.anchor.at(time);
+        self.falloff.towards(position, p).map_or(0.0, |(wi, irradiance)| {
+            self.intensity.luminance() * irradiance * self.share(-wi.dot(axis))
+        })
+    }
 }

@@ -15,7 +15,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
     EyeSamples, Integrator, Transport,
-    walk::{Rules, Walk},
+    walk::{Lights, Rules, Walk},
 };
 use crate::{
     Contribution, PathRay, SampleCx,
@@ -81,6 +81,12 @@ impl Kind for Distributed {
             Rules::SHADOWS,
             Rules::ATTENUATION_DISTANCE,
             rays("shadowrays", "Rays to each light with extent; 0: to its middle only, for hard shadows."),
+            ParamSpec::new(
+                "lights",
+                ParamType::Choice(&Lights::WORDS),
+                ParamDefault::Text("all"),
+                "all: shadow rays to every light; one: to one, chosen in proportion to what it could send.",
+            ),
             rays("glossrays", "Rays about each blurred direction; 0: the sharp one only."),
             rays("timesamples", "Moments in the time the shutter is open; 0: its middle only."),
             rays("lenssamples", "Points of the lens; 0: its centre only, a pinhole."),
@@ -109,6 +115,7 @@ impl Kind for Distributed {
         let at_hits = |n: u32| if sampling == Sampling::Shared { n.min(1) } else { n };
         let rules = Rules {
             shadow_rays: at_hits(shadow_rays),
+            lights: Lights::from_word(args.text("lights"))?,
             gloss_rays: NonZeroU32::new(at_hits(gloss_rays)),
             ..Rules::from_args(args)
         };

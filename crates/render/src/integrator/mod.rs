@@ -18,7 +18,7 @@ use crate::{
 
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
-pub use walk::Shadows;
+pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
 /// What the film holds once it is full.

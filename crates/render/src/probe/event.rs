@@ -112,6 +112,8 @@ pub struct Choice {
     /// Weight of multiple importance sampling, 0 to 1: of a sampled light over all lobes, by what they reflect; of a drawn
     /// ray that of the emission of the light it met. `None` where there is one strategy.
     pub mis: Option<f32>,
+    /// Probability with which this light was chosen among all, 0 to 1; 1 where there was no choice.
+    pub chance: f32,
     /// How many rays share this one's place.
     pub rays: u32,
     /// The random numbers that decided; `None` if there was nothing to decide.
@@ -129,6 +131,7 @@ impl Choice {
             pdf: None,
             other_pdf: None,
             mis: None,
+            chance: 1.0,
             rays: 1,
             random: None,
         }

@@ -2,21 +2,16 @@
 //!
 //! A piece is chosen in proportion to its area, by bisection of the sums; what is left of the random number goes on to the
 //! piece, so that strata of the number are strata of the light.
-use std::{borrow::Cow, sync::Arc};
+use std::borrow::Cow;
 
-use durer_core::{
-    glam::{DAffine3, DVec3},
-    math::{Normal3, Point3},
-};
-use durer_scene::Mesh;
+use durer_core::glam::{DAffine3, DVec3};
 
 use super::{
     super::Track,
-    piece::Piece,
+    form::{Form, mesh_corners, mesh_turns},
     placed::{Chosen, Placed, choose_triangle, mirrors, triangle_density},
-    triangle,
 };
-use crate::shape::{Geometry, flat};
+use crate::shape::Geometry;
 
 /// A shape that shines.
 #[derive(Debug)]
@@ -30,16 +25,10 @@ pub(super) struct Emitter {
     reversed: bool,
     /// The largest product of a coordinate and a coefficient of the placement: what its rounding is measured by.
     magnitude: f64,
+    /// Centre and radius of a sphere around it at all times.
+    sphere: (DVec3, f64),
     /// In square metres, at the first moment.
     pub(super) area: f64,
-}
-
-#[derive(Debug)]
-enum Form {
-    /// Pieces, and where those of each part of the shape begin.
-    Pieces(Vec<Piece>, Vec<u32>),
-    /// Triangles.
-    Mesh(Arc<Mesh>),
 }
 
 impl Emitter {
@@ -52,18 +41,23 @@ impl Emitter {
         let first = track.at(f32::NEG_INFINITY);
         let areas = form.areas(&track);
         let choice = Choice::of(&areas).ok_or("the shape has no area: it gives no light")?;
-        let extent = form.extent();
+        let corners = form.corners();
+        let extent = corners.iter().fold(0.0, |extent: f64, p| p.abs().max_element().max(extent));
         let largest = |m: &DAffine3| {
             let row = |r: usize| m.matrix3.row(r).abs().element_sum() * extent + m.translation[r].abs();
             row(0).max(row(1)).max(row(2))
         };
         let magnitude = track.stations().map(largest).fold(0.0, f64::max);
+        let everywhere = || track.stations().flat_map(|m| corners.map(|p| m.transform_point3(p)));
+        let low = everywhere().fold(DVec3::INFINITY, DVec3::min);
+        let high = everywhere().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let sphere = ((low + high) / 2.0, (high - low).length() / 2.0);
         let area = form.areas_at(&first).sum();
         let placed = match &form {
             Form::Pieces(pieces, _) if track.is_still() => pieces.iter().map(|p| p.placed(&first)).collect(),
             _ => Vec::new(),
         };
-        Ok(Self { form, placed, choice, track, reversed, magnitude, area })
+        Ok(Self { form, placed, choice, track, reversed, magnitude, sphere, area })
     }
 
     /// A point of the light and how far, at most, each coordinate of its shape may be off as rays find it.
@@ -85,6 +79,22 @@ impl Emitter {
         };
         let n = if self.reversed { -chosen.n } else { chosen.n };
         Some((Chosen { n, density: chosen.density * share, ..chosen }, self.magnitude))
+    }
+
+    /// A cheap estimate of the solid angle in which `from` sees it, less what is turned away; 0 only where it cannot be seen.
+    pub(super) fn size_from(&self, from: DVec3, both_sides: bool) -> f32 {
+        let (center, radius) = self.sphere;
+        let away = from - center;
+        let squared = away.length_squared().max(radius * radius);
+        // What is flat and stands still is seen at an angle.
+        let cos = match self.placed.as_slice() {
+            [flat] => flat.normal().map_or(1.0, |n| {
+                let cos = away.dot(if self.reversed { -n } else { n }) / squared.sqrt();
+                if both_sides { cos.abs() } else { cos.max(0.0) }
+            }),
+            _ => 1.0,
+        };
+        (self.area * cos / squared) as f32
     }
 
     /// The density with which [`Emitter::choose`] gives the direction of a point of part `part`.
@@ -109,97 +119,6 @@ impl Emitter {
                 self.choice.share(index) * placed(index).density(from, p, n)
             }
         }
-    }
-}
-
-impl Form {
-    fn of(geometry: &Geometry) -> Option<Self> {
-        match geometry {
-            Geometry::Mesh(mesh) => Some(match rectangle(mesh) {
-                // One piece, in as many parts as the mesh happens to have.
-                Some(piece) => Self::Pieces(vec![piece], Vec::new()),
-                None => Self::Mesh(Arc::clone(mesh)),
-            }),
-            Geometry::Shapes(parts) => {
-                let (mut pieces, mut starts) = (Vec::new(), Vec::new());
-                for part in parts {
-                    starts.push(pieces.len() as u32);
-                    pieces.extend(Piece::of(part)?);
-                }
-                Some(Self::Pieces(pieces, starts))
-            }
-        }
-    }
-
-    /// The areas by which pieces are chosen: the sums over all moments that differ.
-    fn areas(&self, track: &Track) -> Vec<f64> {
-        let mut areas: Vec<f64> = self.areas_at(&track.at(f32::NEG_INFINITY)).collect();
-        if let Self::Mesh(mesh) = self {
-            for later in &mesh.later {
-                let m = track.at(later.time);
-                for (i, area) in areas.iter_mut().enumerate() {
-                    let corners = mesh_corners(mesh, i, later.time);
-                    *area += triangle::area(corners.map(|p| m.transform_point3(p)));
-                }
-            }
-        }
-        areas
-    }
-
-    fn areas_at<'s>(&'s self, m: &'s DAffine3) -> Box<dyn Iterator<Item = f64> + 's> {
-        match self {
-            Self::Pieces(pieces, _) => Box::new(pieces.iter().map(|piece| piece.area(m))),
-            Self::Mesh(mesh) => Box::new((0..mesh.indices.len()).map(|i| {
-                triangle::area(mesh_corners(mesh, i, f32::NEG_INFINITY).map(|p| m.transform_point3(p)))
-            })),
-        }
-    }
-
-    fn extent(&self) -> f64 {
-        match self {
-            Self::Pieces(pieces, _) => pieces.iter().map(Piece::extent).fold(0.0, f64::max),
-            Self::Mesh(mesh) => {
-                let keys = (0..mesh.keys()).flat_map(|key| mesh.key(key).1);
-                keys.fold(0.0, |largest, p| largest.max(p.to_f64().abs().max_element()))
-            }
-        }
-    }
-}
-
-fn mesh_corners(mesh: &Mesh, triangle: usize, time: f32) -> [DVec3; 3] {
-    let Some(vertices) = mesh.indices.get(triangle) else { return [DVec3::ZERO; 3] };
-    mesh.corners(vertices.map(|i| i as usize), time).map(Point3::to_f64)
-}
-
-/// Whether the vertex normals of a triangle say that the outside is where it is seen clockwise.
-fn mesh_turns(mesh: &Mesh, triangle: usize, [a, b, c]: [DVec3; 3]) -> bool {
-    let Some(vertices) = mesh.indices.get(triangle).filter(|_| !mesh.normals.is_empty()) else {
-        return false;
-    };
-    let normals = vertices.map(|i| mesh.normals.get(i as usize).copied().unwrap_or(Normal3::ZERO).to_f64());
-    normals.iter().sum::<DVec3>().dot((b - a).cross(c - a)) < 0.0
-}
-
-/// The rectangle that two triangles make; `None` if they do not.
-fn rectangle(mesh: &Mesh) -> Option<Piece> {
-    let [first, second] = mesh.indices.as_slice() else { return None };
-    if !mesh.is_still() {
-        return None;
-    }
-    let lone = |t: &[u32; 3], other: &[u32; 3]| (0..3).find(|&i| !other.contains(&t[i]));
-    let (i, j) = (lone(first, second)?, lone(second, first)?);
-    let ([at, next, previous], far) = ([first[i], first[(i + 1) % 3], first[(i + 2) % 3]], second[j]);
-    // The shared edge is run through in opposite senses.
-    if second[(j + 1) % 3] != previous || second[(j + 2) % 3] != next {
-        return None;
-    }
-    let vertex = |i: u32| mesh.positions.get(i as usize).copied().map(Point3::to_f64);
-    let outline = flat::parallelogram([vertex(at)?, vertex(next)?, vertex(far)?, vertex(previous)?])?;
-    let turned = |k: usize| mesh_turns(mesh, k, mesh_corners(mesh, k, 0.0));
-    match (turned(0), turned(1)) {
-        (false, false) => Some(Piece::Parallelogram(outline.0, outline.1)),
-        (true, true) => Some(Piece::Parallelogram(outline.0, [outline.1[1], outline.1[0]])),
-        _ => None,
     }
 }
 

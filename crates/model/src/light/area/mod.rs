@@ -5,6 +5,7 @@
 //! only the noise. The power is `pi L A`, twice that if both sides shine.
 mod cone;
 mod emitter;
+mod form;
 mod piece;
 mod placed;
 mod rectangle;
@@ -140,6 +141,10 @@ impl Light for Area {
         let point = offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), back);
         let wi = Vector3::from_f64(towards / distance);
         Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32) })
+    }
+
+    fn reach(&self, p: Point3, _time: f32) -> f32 {
+        self.emitter.size_from(p.to_f64(), self.sides == Sides::Both) * self.radiance.luminance()
     }
 
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use durer_core::{
     glam::{DAffine3, DVec3},
-    math::Point2,
+    math::{Point2, Point3},
 };
 
 use super::{
@@ -52,18 +52,13 @@ impl Piece {
         }
     }
 
-    /// The largest coordinate of any of its points, in its own space.
-    pub(super) fn extent(&self) -> f64 {
+    /// Corners of something around it, in its own space.
+    pub(super) fn corners(&self) -> Vec<DVec3> {
         match self {
-            Self::Sphere { radius, .. } => *radius,
-            Self::Parallelogram(p, [e, f]) => [*p, *p + *e, *p + *f, *p + *e + *f]
-                .into_iter()
-                .fold(0.0, |m, p| p.abs().max_element().max(m)),
-            Self::Triangle(corners) => corners.iter().fold(0.0, |m, p| p.abs().max_element().max(m)),
-            Self::Curved(shape) => {
-                let corners = shape.bounds().corners();
-                corners.into_iter().fold(0.0, |m, p| p.to_f64().abs().max_element().max(m))
-            }
+            Self::Sphere { radius, .. } => vec![DVec3::splat(-radius), DVec3::splat(*radius)],
+            Self::Parallelogram(p, [e, f]) => vec![*p, *p + *e, *p + *f, *p + *e + *f],
+            Self::Triangle(corners) => corners.to_vec(),
+            Self::Curved(shape) => shape.bounds().corners().map(Point3::to_f64).to_vec(),
         }
     }
 

@@ -27,7 +27,7 @@ use crate::{
 
 use report::Parts;
 pub(super) use rules::Rules;
-pub use rules::Shadows;
+pub use rules::{Lights, Shadows};
 
 /// Surfaces passed in a row at most: each is a step of the recursion, though no bounce.
 const MOST_PASSED: u32 = 1000;

@@ -10,7 +10,11 @@ use durer_model::{
     light::LightSample,
 };
 
-use super::{super::shading::Shading, MOST_PASSED, Walk};
+use super::{
+    super::shading::Shading,
+    Lights, MOST_PASSED, Walk,
+    lights::{Aim, Extent},
+};
 use crate::{
     PathRay,
     media::Crossing,
@@ -48,7 +52,7 @@ impl<P: Probe> Walk<'_, P> {
             },
         );
         if let (Some(lamp), Some(density)) = (&s.lamp, ray.density) {
-            let sampled = self.light_density(s.lamp_pdf(self.cx, lamp, ray.from));
+            let sampled = self.lamp_density(ray, s, lamp);
             self.probe.met_light(id, sampled, density / (density + sampled));
         }
     }
@@ -88,25 +92,25 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// How the weight of the shadow ray comes about that is announced next. `sampler` gave the light its numbers.
-    pub(super) fn report_light(&mut self, s: &Shading, sampler: &Sampler, sample: &LightSample) {
+    pub(super) fn report_light(&mut self, s: &Shading, sampler: &Sampler, sample: &LightSample, chance: f32) {
         let wi = s.frame.to_local(sample.wi);
         let f = s.bsdf.eval(s.wo_local, wi);
         let mut choice = Choice {
             by: ChosenBy::Light,
+            chance,
             lobe: None,
             f: Some(f),
             cos: Some(wi.z.abs()),
             pdf: sample.pdf,
             other_pdf: None,
             mis: None,
-            rays: 1,
+            rays: self.share(sample).1 as u32,
             random: None,
         };
         if let Some(pdf) = sample.pdf {
             let u = sampler.d2(Dim::Light);
             choice.random = Some(RandomNumbers::two(Dim::Light, [u.x, u.y]));
-            choice.rays = self.rules.shadow_rays.max(1);
-            let seen = self.seen(pdf);
+            let seen = self.seen(pdf * chance);
             let counted = s.bsdf.eval_shared(s.wo_local, wi, seen);
             let mis = if f.mean() > 0.0 { counted.mean() / f.mean() } else { 1.0 };
             choice.mis = Some(mis);
@@ -129,13 +133,14 @@ impl<P: Probe> Walk<'_, P> {
         &mut self,
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
-        (light, part): (usize, u32),
+        aim: &Aim,
         sampler: &Sampler,
         id: P::Id,
     ) {
+        let Aim { light, part, chance } = *aim;
         let Some(sample) = s.behind(self.cx, light, sampler) else { return };
-        if part > 0 && sample.pdf.is_none() {
-            // There is but one way to a light without extent.
+        let (extent, rays) = self.share(&sample);
+        if part > 0 && extent == Extent::None && self.rules.lights == Lights::All {
             return;
         }
         let wi = s.frame.to_local(sample.wi);
@@ -144,10 +149,9 @@ impl<P: Probe> Walk<'_, P> {
             false => StopReason::LightBehindSurface,
         };
         if P::RECORDS {
-            self.report_light(s, sampler, &sample);
+            self.report_light(s, sampler, &sample, chance);
         }
-        let rays = if sample.pdf.is_some() { self.rules.shadow_rays.max(1) as f32 } else { 1.0 };
-        let weight = s.bsdf.eval(s.wo_local, wi) * (wi.z.abs() / rays);
+        let weight = s.bsdf.eval(s.wo_local, wi) * (wi.z.abs() / (rays * chance));
         let weight = if weight.is_finite() { weight } else { Spectrum::BLACK };
         let path = self.shadow_path(parent, (s, crossing), light, weight, &sample);
         let shadow = self.probe.ray(id, &path, RayKind::Shadow);
@@ -186,6 +190,7 @@ impl<P: Probe> Walk<'_, P> {
         let cos = drawn.branch.wi.z.abs();
         self.probe.chosen(&Choice {
             by: ChosenBy::Lobe,
+            chance: 1.0,
             lobe: lobe.map(|(_, lobe)| lobe.name()),
             f: (cos > 0.0).then(|| drawn.branch.weight * (drawn.pdf / cos)),
             cos: Some(cos),

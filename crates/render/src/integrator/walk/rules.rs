@@ -19,8 +19,34 @@ pub(in super::super) struct Rules {
     pub(in super::super) attenuation_distance: f32,
     /// Shadow rays to each light with extent; 0: one to its middle.
     pub(in super::super) shadow_rays: u32,
+    /// Which lights get them.
+    pub(in super::super) lights: Lights,
     /// Rays drawn from each lobe that spreads; `None`: its sharp direction stands for it.
     pub(in super::super) gloss_rays: Option<NonZeroU32>,
+}
+
+/// Which lights get shadow rays from a hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lights {
+    /// All of them.
+    #[default]
+    All,
+    /// One for each ray, chosen in proportion to what it could send: one more dimension of what is distributed.
+    One,
+}
+
+impl Lights {
+    /// All words, in the order of the variants.
+    pub const WORDS: [&'static str; 2] = ["all", "one"];
+
+    /// The word in files and on the command line.
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
+    }
+    /// The variant of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::All, Self::One].into_iter().find(|l| l.word() == word)
+    }
 }
 
 /// What transparent things do to light on its straight way to a surface. Nothing bends it.
@@ -97,6 +123,7 @@ impl Rules {
                 .optional_float(Self::ATTENUATION_DISTANCE.name)
                 .unwrap_or(f32::INFINITY),
             shadow_rays: 1,
+            lights: Lights::All,
             gloss_rays: None,
         }
     }
@@ -124,5 +151,8 @@ mod tests {
             assert_eq!(Shadows::from_word(word).map(Shadows::word), Some(word));
         }
         assert_eq!(Shadows::from_word("soft"), None);
+        for word in Lights::WORDS {
+            assert_eq!(Lights::from_word(word).map(Lights::word), Some(word));
+        }
     }
 }
