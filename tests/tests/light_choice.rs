@@ -62,7 +62,7 @@ fn one_light_a_ray_gives_the_light_of_all() {
 
 #[test]
 fn lights_that_gloss_rays_meet_count_once() {
-    let glossy = "Material \"conductor\" \"float roughness\" 0.3";
+    let glossy = "Material \"classic\" \"rgb diffuse\" [0.2 0.2 0.2] \"rgb reflection\" [0.8 0.8 0.8] \"float gloss\" 40";
     let text = spot("2 1.4 0", glossy, &format!("{SQUARE}{DISK}{POINT}"));
     let [all, one] = [Lights::All, Lights::One].map(|lights| mean(&scene(&text, &options(lights, SAMPLES))));
     assert!(all > 0.2 && (one / all - 1.0).abs() < 5e-3, "{one}, with all lights {all}");
