@@ -49,7 +49,7 @@ pub(crate) struct Args {
     output: Option<PathBuf>,
     /// Folds from this angle on are drawn.
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_negative_numbers = true)]
-    #[arg(default_value_t = 30.0, help_heading = "Drawing")]
+    #[arg(default_value_t = 40.0, help_heading = "Drawing")]
     crease: f32,
     /// Rays along the edge of a pixel.
     #[arg(long, value_name = "N", value_parser = whole(1u32..=16), allow_negative_numbers = true)]

@@ -78,7 +78,7 @@ pub struct Machine {
 
 impl Default for Machine {
     fn default() -> Self {
-        Self { rays: 1, crease: 30.0, tolerance: 0.08, threads: 1 }
+        Self { rays: 1, crease: 40.0, tolerance: 0.08, threads: 1 }
     }
 }
 
@@ -100,6 +100,9 @@ pub struct Drawing {
     /// How many rays were cast.
     pub rays: u64,
 }
+
+/// A fold is followed while it is at least this share as sharp as it must be to be drawn.
+const FADING: f32 = 0.75;
 
 /// Draws what the camera of a scene sees; `None` if `cancel` was set meanwhile.
 ///
@@ -124,8 +127,7 @@ fn draw_here(
     let size = [scene.view.width, scene.view.height];
     let eye = Eye::new(scene);
     let crease = line::radians(machine.crease) as f32;
-    // A fold that fades is drawn on until it is half as sharp as it must be somewhere.
-    let searcher = Searcher { eye: &eye, judge: Judge { crease: 0.5 * crease } };
+    let searcher = Searcher { eye: &eye, judge: Judge { crease: FADING * crease } };
     let grid = Grid::new(size, machine.rays.max(1));
     let lattice = Lattice::cast(&eye, grid, progress, cancel)?;
     let crossed = lattice.crossed(&searcher, progress, cancel)?;

@@ -11,8 +11,16 @@ use crate::{
     trail::Trail,
 };
 
-/// Loose lines shorter than this are specks, in pixels.
-const SPECK: f64 = 2.5;
+/// Loose outlines shorter than this are specks, in pixels.
+const SPECK: f64 = 4.0;
+/// Loose folds shorter than this are edges of single triangles, in pixels.
+const CHIP: f64 = 8.0;
+/// A loose outline whose jump in depth nowhere reaches so many widths of a pixel is a ripple.
+const RIPPLE: f32 = 2.0;
+/// A loose fold that turns sharply more often than once in so many pixels follows the edges of triangles.
+const ZIGZAG: f64 = 12.0;
+/// Share of a fold that must be as sharp as folds are drawn.
+const SHARP: f64 = 0.5;
 /// Points of a line nearer together than this say more of rounding than of the line, in pixels.
 const SPACING: f64 = 0.35;
 
@@ -47,21 +55,22 @@ impl Line {
 pub(crate) struct Pen {
     /// How far a curve may pass by its points, in pixels.
     pub(crate) tolerance: f64,
-    /// Angle of a fold that is drawn, in radians; parts of its line may be half as sharp.
+    /// Angle of a fold that is drawn, in radians; parts of its line may be less sharp.
     pub(crate) crease: f32,
 }
 
 impl Pen {
     /// The line of a trail; `None` if it is not worth drawing.
     pub(crate) fn line(&self, trail: &Trail) -> Option<Line> {
-        let is_speck = trail.is_loose && length(&trail.stations) < SPECK;
-        let is_faint = trail.kind == Kind::Crease
-            && trail.stations.iter().all(|s| s.change.kind != Kind::Crease || s.change.strength < self.crease);
-        if is_speck || is_faint || trail.stations.len() < 2 {
+        if trail.stations.len() < 2 || self.is_noise(trail) {
             return None;
         }
         let points: Vec<DVec2> = trail.stations.iter().map(|s| s.at).collect();
         let corners = corners(&points, trail.closed);
+        let is_zigzag = corners.len() > 2 && length(&trail.stations) < ZIGZAG * corners.len() as f64;
+        if trail.kind == Kind::Crease && trail.is_loose && is_zigzag {
+            return None;
+        }
         let mut line = Line { kind: trail.kind, closed: trail.closed, start: points[0], pieces: Vec::new() };
         if !trail.closed {
             let inner = corners.iter().copied();
@@ -83,6 +92,22 @@ impl Pen {
             self.ring(&points, &mut line);
         }
         (!line.pieces.is_empty()).then_some(line)
+    }
+
+    /// Whether a trail comes of what surfaces are made of rather than of their form.
+    fn is_noise(&self, trail: &Trail) -> bool {
+        let stations = &trail.stations;
+        let share = |is: &dyn Fn(f32) -> bool| {
+            let some = stations.iter().filter(|s| s.change.kind == trail.kind);
+            let (met, all) = some.fold((0, 0), |(met, all), s| (met + usize::from(is(s.change.strength)), all + 1));
+            met as f64 / f64::from(all.max(1u32))
+        };
+        let loose_below = |least: f64| trail.is_loose && length(stations) < least;
+        match trail.kind {
+            Kind::Silhouette => loose_below(SPECK) || trail.is_loose && share(&|jump| jump > RIPPLE) == 0.0,
+            Kind::Boundary => loose_below(SPECK),
+            Kind::Crease => loose_below(CHIP) || share(&|turn| turn >= self.crease) < SHARP,
+        }
     }
 
     /// Curves through points between two corners or ends.
