@@ -109,7 +109,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let Some(drawing) = drawing else { return Ok(Exit::Interrupted) };
     let shorter = f64::from(drawing.size[0].min(drawing.size[1]));
     let stroke = args.stroke.map_or((shorter / 500.0).max(0.5), f64::from);
-    let title = Path::new(scene).file_stem().map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
+    let title =
+        Path::new(scene).file_stem().map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
     let text = svg(&drawing, &title, &Style { stroke, paper: args.paper });
     durer::image::replace_file(&output, text.as_bytes())?;
     if !args.talk.quiet {

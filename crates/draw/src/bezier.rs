@@ -155,10 +155,8 @@ fn handles(points: &[DVec2], parameters: &[f64], [first, last]: [DVec2; 2]) -> [
         }
     }
     let determinant = c[0][0] * c[1][1] - c[0][1] * c[1][0];
-    let lengths = [
-        (x[0] * c[1][1] - x[1] * c[0][1]) / determinant,
-        (c[0][0] * x[1] - c[1][0] * x[0]) / determinant,
-    ];
+    let lengths =
+        [(x[0] * c[1][1] - x[1] * c[0][1]) / determinant, (c[0][0] * x[1] - c[1][0] * x[0]) / determinant];
     // Handles that point backwards, or far beyond the other end, make loops: a third of the way is Schneider's remedy.
     let way = start.distance(end);
     let is_sound = |l: f64| l > 1e-3 * way && l < 3.0 * way;
@@ -181,7 +179,9 @@ mod tests {
 
     #[test]
     fn a_quarter_of_a_circle_is_one_curve() {
-        let points: Vec<DVec2> = (0..=60).map(|i| DVec2::from_angle(f64::from(i) / 60.0 * std::f64::consts::FRAC_PI_2) * 40.0).collect();
+        let points: Vec<DVec2> = (0..=60)
+            .map(|i| DVec2::from_angle(f64::from(i) / 60.0 * std::f64::consts::FRAC_PI_2) * 40.0)
+            .collect();
         let mut pieces = Vec::new();
         fit(&points, [DVec2::Y, DVec2::NEG_X], 0.02, &mut pieces);
         assert_eq!(pieces.len(), 1, "{pieces:?}");

@@ -122,7 +122,8 @@ impl Lattice {
             let before = searcher.eye.rays();
             let right = (0..columns).map(|x| (x, false));
             let down = (0..=columns).map(|x| (x, true)).filter(|_| y < rows);
-            let sides = right.chain(down).map(|(x, down)| Side { from: [x * span, y * span], length: span, down });
+            let sides =
+                right.chain(down).map(|(x, down)| Side { from: [x * span, y * span], length: span, down });
             let spot = |point| self.spot(searcher.eye, point);
             let found = |side: Side| Some((side, searcher.between(spot(side.from)?, spot(side.to())?)?));
             let found = sides.filter_map(found).collect();

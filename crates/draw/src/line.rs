@@ -75,7 +75,8 @@ impl Pen {
         if !trail.closed {
             let inner = corners.iter().copied();
             let ends = [(0, points[0]), (points.len() - 1, points[points.len() - 1])];
-            let all: Vec<_> = ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied()).collect();
+            let all: Vec<_> =
+                ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied()).collect();
             for pair in all.windows(2) {
                 self.stretch(&points[pair[0].0..=pair[1].0], [pair[0].1, pair[1].1], &mut line.pieces);
             }
@@ -99,7 +100,8 @@ impl Pen {
         let stations = &trail.stations;
         let share = |is: &dyn Fn(f32) -> bool| {
             let some = stations.iter().filter(|s| s.change.kind == trail.kind);
-            let (met, all) = some.fold((0, 0), |(met, all), s| (met + usize::from(is(s.change.strength)), all + 1));
+            let (met, all) =
+                some.fold((0, 0), |(met, all), s| (met + usize::from(is(s.change.strength)), all + 1));
             met as f64 / f64::from(all.max(1u32))
         };
         let loose_below = |least: f64| trail.is_loose && length(stations) < least;

@@ -41,7 +41,11 @@ impl Cell {
     }
     fn quarters(&self) -> [Self; 4] {
         let size = self.size / 2;
-        [[0, 0], [size, 0], [0, size], [size, size]].map(|[dx, dy]| Self { y: self.y + dy, x: self.x + dx, size })
+        [[0, 0], [size, 0], [0, size], [size, size]].map(|[dx, dy]| Self {
+            y: self.y + dy,
+            x: self.x + dx,
+            size,
+        })
     }
     /// From the middle of the sides to the middle.
     fn cross(&self) -> [Side; 4] {
@@ -151,7 +155,8 @@ impl<'a> Net<'a> {
     /// The uncut cells on both sides of a side.
     fn beside(&self, side: &Side) -> Vec<Cell> {
         let [x, y] = side.from;
-        let before = if side.down { x.checked_sub(1).map(|x| [x, y]) } else { y.checked_sub(1).map(|y| [x, y]) };
+        let before =
+            if side.down { x.checked_sub(1).map(|x| [x, y]) } else { y.checked_sub(1).map(|y| [x, y]) };
         before.into_iter().chain([side.from]).filter_map(|unit| self.around(unit)).collect()
     }
 
@@ -217,7 +222,10 @@ impl<'a> Net<'a> {
             }
             [_] if is_last => Verdict::Links(Vec::new()),
             many if is_last => {
-                let link = |(side, _): &(Side, Found)| Link { ends: [Node::On(*side), Node::In(*cell)], middle: None };
+                let link = |(side, _): &(Side, Found)| Link {
+                    ends: [Node::On(*side), Node::In(*cell)],
+                    middle: None,
+                };
                 Verdict::Links(many.iter().map(link).collect())
             }
             _ => Verdict::Cut,
@@ -239,7 +247,8 @@ impl<'a> Net<'a> {
 
     /// Cuts cells in four; the cells that have to be looked at then.
     fn cut(&mut self, cells: &[Cell]) -> BTreeSet<Cell> {
-        let outer: BTreeSet<Side> = cells.iter().flat_map(Cell::sides).filter(|s| !self.is_halved(s)).collect();
+        let outer: BTreeSet<Side> =
+            cells.iter().flat_map(Cell::sides).filter(|s| !self.is_halved(s)).collect();
         let halves = outer.iter().flat_map(Side::halves);
         let sides: BTreeSet<Side> = halves.chain(cells.iter().flat_map(Cell::cross)).collect();
         let points: BTreeSet<[u32; 2]> = sides.iter().flat_map(|side| [side.from, side.to()]).collect();

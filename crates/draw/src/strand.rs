@@ -168,7 +168,8 @@ impl Strands {
 impl Graph<'_> {
     /// The mean of the crossings around a junction.
     fn place(&self, node: &Node) -> DVec2 {
-        let around = self.at[node].iter().flat_map(|&link| self.links[link].ends).filter_map(|end| self.station(&end));
+        let around =
+            self.at[node].iter().flat_map(|&link| self.links[link].ends).filter_map(|end| self.station(&end));
         let (sum, n) = around.fold((DVec2::ZERO, 0.0), |(sum, n), s| (sum + s.at, n + 1.0));
         match node {
             Node::In(cell) if n == 0.0 => self.net.middle(cell),

@@ -71,7 +71,9 @@ fn partners(strands: &Strands) -> Vec<[Option<(usize, usize)>; 2]> {
             for b in &arms[i + 1..] {
                 let straight = -a.towards.dot(b.towards);
                 let is_outline = a.kind == Kind::Silhouette && a.front == b.front;
-                if a.kind == b.kind && (is_outline && straight > -0.9 || straight > STRAIGHT || arms.len() == 2) {
+                if a.kind == b.kind
+                    && (is_outline && straight > -0.9 || straight > STRAIGHT || arms.len() == 2)
+                {
                     pairs.push((straight + if is_outline { 1.0 } else { 0.0 }, *a, *b));
                 }
             }
@@ -175,7 +177,8 @@ fn steady(stations: &mut [Station]) {
         let runs = runs(stations);
         let reach = |&(start, end): &(usize, usize)| length(&stations[start..end]);
         let shortest = runs.iter().enumerate().min_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
-        let Some((index, &(start, end))) = shortest.filter(|(_, run)| runs.len() > 1 && reach(run) < PASSING) else {
+        let Some((index, &(start, end))) = shortest.filter(|(_, run)| runs.len() > 1 && reach(run) < PASSING)
+        else {
             return;
         };
         let before = index.checked_sub(1).map(|i| runs[i]);
