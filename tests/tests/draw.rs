@@ -251,7 +251,7 @@ fn still_life() -> String {
         AttributeBegin Translate -0.2 0.6 1.5 Rotate 20 1 0 0 Shape \"disk\" \"float radius\" 0.7 \"float innerradius\" 0.3 AttributeEnd
         ObjectBegin \"pair\" {CUBE} Translate 0 1.6 0 Shape \"sphere\" \"float radius\" 0.6 ObjectEnd
         AttributeBegin Translate 0.1 -0.7 -1 Scale 0.2 0.3 0.2 ObjectInstance \"pair\" AttributeEnd
-        AttributeBegin Translate 1.7 -0.6 -0.5 Rotate 40 0 1 0 Scale 0.25 0.4 0.25 ObjectInstance \"pair\" AttributeEnd"
+        AttributeBegin Translate 1.35 -0.6 -0.7 Rotate 40 0 1 0 Scale 0.25 0.4 0.25 ObjectInstance \"pair\" AttributeEnd"
     )
 }
 
@@ -369,9 +369,9 @@ fn instances_are_drawn_where_they_stand() {
 
 #[test]
 fn threads_thinner_than_the_lattice_are_followed_to_their_ends() {
-    // A wire an eighth of a pixel wide that passes behind a ball.
+    // A wire a fifth of a pixel wide that passes behind a ball.
     let world = "Translate 0 0 0 Shape \"sphere\" \"float radius\" 0.4
-        Shape \"trianglemesh\" \"point3 P\" [-1.5 -0.7 0.6  -1.5 -0.6975 0.6  1.5 0.6 0.6  1.5 0.6025 0.6] \"integer indices\" [0 1 2 1 3 2]";
+        Shape \"trianglemesh\" \"point3 P\" [-1.5 -0.7 0.6  -1.5 -0.695 0.6  1.5 0.6 0.6  1.5 0.605 0.6] \"integer indices\" [0 1 2 1 3 2]";
     let look = Look { eye: DVec3::new(0.0, 0.0, -5.0), ..LOOK };
     let drawing = drawn(&look.scene(world));
     let way = [DVec3::new(-1.5, -0.7, 0.6), DVec3::new(1.5, 0.6, 0.6)].map(|p| look.project(p));

@@ -57,7 +57,7 @@ pub(crate) struct Args {
     rays: u32,
     /// How far curves may pass by the points that were found.
     #[arg(long, value_name = "PIXELS", value_parser = positive, allow_negative_numbers = true)]
-    #[arg(default_value_t = 0.08, help_heading = "Drawing")]
+    #[arg(default_value_t = 0.04, help_heading = "Drawing")]
     tolerance: f32,
     /// Width of silhouettes in pixels; boundaries and creases are thinner [default: a 500th of the shorter edge].
     #[arg(long, value_name = "PIXELS", value_parser = positive, allow_negative_numbers = true)]

@@ -1,15 +1,16 @@
 //! Where a trail turns sharply: curves end there and begin anew.
 //!
-//! A smooth curve turns the less the nearer one looks, a corner does not: the turn is taken over a short way and confirmed
-//! over a longer one.
+//! A smooth curve turns the less the shorter the way one looks at, a corner does not: the turn is taken over a short way and
+//! compared with that over a longer one.
 use durer_core::glam::DVec2;
 
-/// Ways on both sides over which the turn is taken, in pixels.
-const NEAR: f64 = 0.75;
-const FAR: f64 = 2.0;
-/// Cosines of the least turns over them: 35 and 30 degrees.
-const NEAR_TURN: f64 = 0.819;
-const FAR_TURN: f64 = 0.866;
+/// Ways on both sides over which the turn is taken, in pixels. Of a smooth curve's turn over the longer one the shorter has
+/// two fifths.
+const NEAR: f64 = 1.0;
+const FAR: f64 = 2.5;
+/// Turns over the shorter way from which on there is a corner, in radians, with the share they must have of that over the
+/// longer one: gentle corners must be plain.
+const SHARP: [(f64, f64); 2] = [(0.3, 0.65), (0.6, 0.45)];
 /// Of the corners within so many pixels only the sharpest counts.
 const APART: f64 = 1.5;
 /// Sides of a corner are taken as straight from here to there, in pixels from it.
@@ -51,13 +52,13 @@ impl<'a> Way<'a> {
         Some(self.points[from].lerp(self.points[to], u))
     }
 
-    /// Cosine of the turn at a point, over so many pixels on both sides; 1 where the line is too short for it.
+    /// The turn at a point over so many pixels on both sides, in radians; 0 where the line is too short for it.
     fn turn(&self, index: usize, reach: f64) -> f64 {
         let here = self.points[index];
         let s = self.sums[index];
         match (self.at(s - reach), self.at(s + reach)) {
-            (Some(a), Some(b)) => (here - a).normalize_or_zero().dot((b - here).normalize_or_zero()),
-            _ => 1.0,
+            (Some(a), Some(b)) if a != here && b != here => (here - a).angle_to(b - here).abs(),
+            _ => 0.0,
         }
     }
 
@@ -89,16 +90,14 @@ pub(crate) fn corners(points: &[DVec2], closed: bool) -> Vec<(usize, DVec2)> {
     }
     let way = Way::new(points, closed);
     let inner = if closed { 0..points.len() } else { 1..points.len() - 1 };
-    // The last stretch before an end of the line is too short for the longer look.
-    let far = |i: usize| {
+    let is_corner = |&(i, near): &(usize, f64)| {
+        // The last stretch before an end of the line is too short for the longer look.
         let left = if closed { FAR } else { FAR.min(way.sums[i]).min(way.total - way.sums[i]) };
-        way.turn(i, left.max(NEAR))
+        let far = way.turn(i, left.max(NEAR));
+        SHARP.iter().any(|&(turn, share)| near > turn && near > share * far)
     };
-    let mut sharp: Vec<(usize, f64)> = inner
-        .map(|i| (i, way.turn(i, NEAR)))
-        .filter(|&(i, turn)| turn < NEAR_TURN && far(i) < FAR_TURN)
-        .collect();
-    sharp.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    let mut sharp: Vec<(usize, f64)> = inner.map(|i| (i, way.turn(i, NEAR))).filter(is_corner).collect();
+    sharp.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let mut kept: Vec<usize> = Vec::new();
     for (index, _) in sharp {
         let is_apart = |&other: &usize| {

@@ -78,7 +78,7 @@ pub struct Machine {
 
 impl Default for Machine {
     fn default() -> Self {
-        Self { rays: 1, crease: 40.0, tolerance: 0.08, threads: 1 }
+        Self { rays: 1, crease: 40.0, tolerance: 0.04, threads: 1 }
     }
 }
 

@@ -22,8 +22,10 @@ use crate::{
 const MOST_CUTS: usize = 400_000;
 /// Half of how far from the middle of a piece of a line both sides of it are looked at, in pixels.
 const BESIDE: f64 = 1.0 / 16.0;
-/// Pieces shorter than this, in pixels, are straight.
+/// Pieces shorter than this, in pixels, are straight. In a large cell they are rather the tip of something small.
 const SHORT: f64 = 0.2;
+/// Units along the edge of a large cell.
+const LARGE: u32 = 4;
 
 /// A square of the fine grid. Ordered by rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -214,7 +216,7 @@ impl<'a> Net<'a> {
             [] => Verdict::Links(Vec::new()),
             [(from, a), (to, b)] => {
                 let middle = self.middle_between(a.crossing, b.crossing);
-                let short = a.crossing.at.distance(b.crossing.at) < SHORT;
+                let short = a.crossing.at.distance(b.crossing.at) < SHORT && cell.size < LARGE;
                 if middle.is_none() && !short && !is_last {
                     return Verdict::Cut;
                 }

@@ -124,7 +124,7 @@ def half_width(x):
     return a * (2 * s ** 3 - 3 * s * s + 1) + b * (3 * s * s - 2 * s ** 3) - 0.30 * (LENGTH - 0.17) * (s ** 3 - s * s)
 
 
-STEPS = [0.17 * (1 - cos(pi / 2 * i / 9)) for i in range(9)] + [0.17 + 0.30 * i / 13 for i in range(14)]
+STEPS = [0.17 * (1 - cos(pi / 2 * i / 14)) for i in range(14)] + [0.17 + 0.30 * i / 20 for i in range(21)]
 RIBS = 9
 
 
@@ -330,8 +330,9 @@ AttributeBegin""")
     material((0.30, 0.29, 0.28), 0.5, 80)
     ring("eyelet", add(EYELET, (0, -0.006, 0)), (0, 0, 1), 0.017, 0.0035)
     tube("hook", [add(EYELET, (0.018, -0.006, 0)), (1.06, EYELET[1] - 0.006, 0)], [0.0045] * 2, 10)
-    lathe("weight", [(0.0, 0.07), (0.006, 0.068), (0.009, 0.058), (0.017, 0.046), (0.030, 0.022), (0.034, 0.0), (0.034, 0.0),
-                     (0.034, -0.012), (0.034, -0.012), (0.0, -0.012)], weight)
+    # A pear of lead with a flat foot.
+    pear = [(0.006 + 0.028 * (1 - cos(pi * i / 12)) / 2, 0.066 - 0.066 * i / 12) for i in range(13)]
+    lathe("weight", [(0.0, 0.068)] + pear + [(0.034, 0.0), (0.034, -0.012), (0.034, -0.012), (0.0, -0.012)], weight, 32)
     out("AttributeEnd")
 
 
