@@ -6,7 +6,7 @@ use durer::{
     draw::{DVec2, Drawing, Kind, Line, Machine, Paper, Piece, Style, draw, svg},
     glam::DVec3,
 };
-use durer_tests::{prepared, scene};
+use durer_tests::{look::Look, prepared};
 
 /// The drawing of a scene with so many threads.
 fn drawn_by(scene: &Prepared, machine: Machine) -> Drawing {
@@ -15,61 +15,6 @@ fn drawn_by(scene: &Prepared, machine: Machine) -> Drawing {
 
 fn drawn(scene: &Prepared) -> Drawing {
     drawn_by(scene, Machine { threads: 2, ..Machine::default() })
-}
-
-/// A camera at `eye` that looks at the origin with 40 degrees of view along the shorter edge, and its picture.
-struct Look {
-    eye: DVec3,
-    size: [u32; 2],
-}
-
-impl Look {
-    fn text(&self, world: &str) -> String {
-        let ([w, h], e) = (self.size, self.eye);
-        format!(
-            "Film \"rgb\" \"integer xresolution\" {w} \"integer yresolution\" {h}\n\
-             LookAt {} {} {}  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n{world}",
-            e.x, e.y, e.z
-        )
-    }
-    fn scene(&self, world: &str) -> Prepared {
-        scene(&self.text(world), &Options::default())
-    }
-    /// Right, up and ahead.
-    fn axes(&self) -> [DVec3; 3] {
-        let ahead = -self.eye.normalize();
-        // pbrt's world is left-handed.
-        let right = DVec3::Y.cross(ahead).normalize();
-        [right, ahead.cross(right), ahead]
-    }
-    fn pixels_per_tan(&self) -> f64 {
-        0.5 * f64::from(self.size[0].min(self.size[1])) / 20f64.to_radians().tan()
-    }
-    fn middle(&self) -> DVec2 {
-        0.5 * DVec2::new(self.size[0].into(), self.size[1].into())
-    }
-    /// Where a point of the world lies in the picture.
-    fn project(&self, p: DVec3) -> DVec2 {
-        let [x, y, z] = self.axes().map(|axis| axis.dot(p - self.eye));
-        self.middle() + DVec2::new(x, -y) / z * self.pixels_per_tan()
-    }
-    /// The direction of the ray through a point of the picture.
-    fn ray(&self, at: DVec2) -> DVec3 {
-        let [right, up, ahead] = self.axes();
-        let q = (at - self.middle()) / self.pixels_per_tan();
-        (ahead + right * q.x - up * q.y).normalize()
-    }
-    /// How far a point of the picture is outside of a sphere's outline, in pixels.
-    fn outside_sphere(&self, at: DVec2, center: DVec3, radius: f64) -> f64 {
-        let to = center - self.eye;
-        let f = |at: DVec2| self.ray(at).angle_between(to) - (radius / to.length()).asin();
-        let e = 1e-3;
-        let gradient = DVec2::new(
-            f(at + DVec2::X * e) - f(at - DVec2::X * e),
-            f(at + DVec2::Y * e) - f(at - DVec2::Y * e),
-        );
-        f(at) / (gradient / (2.0 * e)).length()
-    }
 }
 
 const LOOK: Look = Look { eye: DVec3::new(1.3, 1.9, -4.0), size: [240, 180] };

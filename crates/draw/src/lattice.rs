@@ -1,5 +1,5 @@
 //! The first wave: a lattice of rays over the picture and a little beyond, and the lines between neighbours.
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use durer_core::glam::DVec2;
 use durer_render::drive::Progress;
@@ -115,11 +115,11 @@ impl Lattice {
     ) -> Option<Vec<(Side, Found)>> {
         let [columns, rows] = self.grid.cells;
         let span = self.grid.span;
+        let told = AtomicU64::new(searcher.eye.rays());
         let row = |y: u32| -> Vec<(Side, Found)> {
             if cancel.load(Ordering::Relaxed) {
                 return Vec::new();
             }
-            let before = searcher.eye.rays();
             let right = (0..columns).map(|x| (x, false));
             let down = (0..=columns).map(|x| (x, true)).filter(|_| y < rows);
             let sides =
@@ -127,7 +127,8 @@ impl Lattice {
             let spot = |point| self.spot(searcher.eye, point);
             let found = |side: Side| Some((side, searcher.between(spot(side.from)?, spot(side.to())?)?));
             let found = sides.filter_map(found).collect();
-            progress.advance(u64::from(columns + 1), searcher.eye.rays() - before);
+            let rays = searcher.eye.rays();
+            progress.advance(u64::from(columns + 1), rays.saturating_sub(told.swap(rays, Ordering::Relaxed)));
             found
         };
         let found: Vec<_> = (0..=rows).into_par_iter().map(row).collect();
