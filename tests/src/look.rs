@@ -26,7 +26,7 @@ impl Look {
         scene(&self.text(world), &Options::default())
     }
     /// Right, up and ahead.
-    fn axes(&self) -> [DVec3; 3] {
+    pub fn axes(&self) -> [DVec3; 3] {
         let ahead = -self.eye.normalize();
         // pbrt's world is left-handed.
         let right = DVec3::Y.cross(ahead).normalize();

@@ -7,8 +7,8 @@ use std::{
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
-    Options,
-    draw::{Drawing, Kind, Machine, Paper, Style, draw, svg},
+    Gather, Options, Prepared,
+    draw::{Drawing, Kind, Line, Machine, Paper, Style, Tones, draw, hatch, svg},
 };
 
 use crate::{
@@ -29,13 +29,14 @@ Examples:
   durer draw room.glb --crease 15              gentle folds too
   durer draw hair.pbrt --rays 4                what is thinner than a pixel
   durer draw statue.ply --stroke 3 --paper none
+  durer draw durer --hatch --spp 8             shaded as a woodcut, by the rendered light
 
 Rays are compared with their neighbours, as Dürer's thread was moved from point to
 point: a line passes where a surface ends (silhouette), two things meet (boundary) or
 a surface folds (crease). What no ray sees is not drawn. Crossings are found to a
 64th of a pixel; more rays find smaller things and move no line.
 
-SVG: a group per kind of line (ids silhouette, boundary, crease), a path per line, in
+SVG: a group per kind of line (ids silhouette, boundary, crease, hatch), a path per line, in
 pixels. stdout holds the path of the file.";
 
 /// Draws the visible lines of a scene as SVG, as Dürer's machine did: from cast rays only.
@@ -63,6 +64,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PIXELS", value_parser = positive, allow_negative_numbers = true)]
     #[arg(help_heading = "Drawing")]
     stroke: Option<f32>,
+    /// Hatches what is dark in the rendered picture, with strokes so far apart [default without PIXELS: 5].
+    #[arg(long, value_name = "PIXELS", value_parser = positive, num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "5", help_heading = "Drawing")]
+    hatch: Option<f32>,
     /// What lies under the lines.
     #[arg(long, value_name = "COLOUR", value_parser = paper(), default_value = "cream", help_heading = "Drawing")]
     paper: Paper,
@@ -106,7 +111,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     // Half a drawing is none: Ctrl-C ends the program.
     let drawing = draw(&prepared.scene, &machine, &bar, &AtomicBool::new(false))?;
     bar.finish();
-    let Some(drawing) = drawing else { return Ok(Exit::Interrupted) };
+    let Some(mut drawing) = drawing else { return Ok(Exit::Interrupted) };
+    if let Some(spacing) = args.hatch {
+        drawing.lines.extend(args.hatching(prepared, &machine, spacing));
+    }
     let shorter = f64::from(drawing.size[0].min(drawing.size[1]));
     let stroke = args.stroke.map_or((shorter / 500.0).max(0.5), f64::from);
     let title =
@@ -121,6 +129,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
 }
 
 impl Args {
+    /// Strokes where the picture, as `durer render` makes it, is dark.
+    fn hatching(&self, prepared: &Prepared, machine: &Machine, spacing: f32) -> Vec<Line> {
+        let never = AtomicBool::new(false);
+        let bar = Bar::new(prepared.job().steps(), self.talk.quiet);
+        let rendered = prepared.job().render(Gather::Rays, &bar, &never);
+        bar.finish();
+        let view = &prepared.scene.view;
+        let pixels: Vec<[f32; 3]> = rendered.film.pixels().iter().map(|p| p.mean()).collect();
+        let tones = Tones::new([view.width, view.height], &pixels);
+        let lines = tones.and_then(|tones| hatch(&prepared.scene, machine, &tones, spacing.into(), &never));
+        lines.unwrap_or_default()
+    }
+
     /// The file, known to be writable.
     fn destination(&self, scene: &str) -> anyhow::Result<PathBuf> {
         let stem = Path::new(scene).file_stem().unwrap_or("drawing".as_ref());
@@ -142,15 +163,17 @@ impl Args {
 
 /// What was drawn, and what it took.
 fn summary(drawing: &Drawing, seconds: f32) -> String {
-    let kinds = Kind::ALL.map(|kind| {
+    let kinds = Kind::ALL.into_iter().filter_map(|kind| {
         let n = drawing.lines.iter().filter(|line| line.kind == kind).count();
         let [one, many] = match kind {
             Kind::Silhouette => ["silhouette", "silhouettes"],
             Kind::Boundary => ["boundary", "boundaries"],
             Kind::Crease => ["crease", "creases"],
+            Kind::Hatch => ["stroke", "strokes"],
         };
-        counted(n as u64, one, many)
+        (kind != Kind::Hatch || n > 0).then(|| counted(n as u64, one, many))
     });
+    let kinds: Vec<String> = kinds.collect();
     let [w, h] = drawing.size;
     let rays = significant(drawing.rays as f32 / 1e6, 3);
     let seconds = significant(seconds, 3);

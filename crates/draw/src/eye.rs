@@ -51,6 +51,11 @@ impl<'a> Eye<'a> {
         self.rays.load(Ordering::Relaxed)
     }
 
+    /// The moment of the drawing, in seconds.
+    pub(crate) fn time(&self) -> f32 {
+        self.time
+    }
+
     /// The ray through a point of the picture or beside it.
     pub(crate) fn ray(&self, at: DVec2) -> Ray {
         const CENTRE: Point2 = Point2::new(0.5, 0.5);

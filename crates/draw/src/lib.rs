@@ -14,6 +14,7 @@ mod bezier;
 mod change;
 mod corner;
 mod eye;
+mod hatch;
 mod lattice;
 mod line;
 mod net;
@@ -28,6 +29,7 @@ use durer_render::{Scene, drive::Progress};
 
 pub use bezier::Piece;
 pub use durer_core::glam::DVec2;
+pub use hatch::{Tones, hatch};
 pub use line::Line;
 pub use svg::{Paper, Style, svg};
 
@@ -47,11 +49,13 @@ pub enum Kind {
     Boundary,
     /// A surface folds.
     Crease,
+    /// It is dark there.
+    Hatch,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Silhouette, Self::Boundary, Self::Crease];
+    pub const ALL: [Self; 4] = [Self::Silhouette, Self::Boundary, Self::Crease, Self::Hatch];
 
     /// The word for it.
     pub fn word(self) -> &'static str {
@@ -59,6 +63,7 @@ impl Kind {
             Self::Silhouette => "silhouette",
             Self::Boundary => "boundary",
             Self::Crease => "crease",
+            Self::Hatch => "hatch",
         }
     }
 }

@@ -95,6 +95,14 @@ impl Pen {
         (!line.pieces.is_empty()).then_some(line)
     }
 
+    /// A line through points that turn nowhere sharply.
+    pub(crate) fn stroke(&self, kind: Kind, points: &[DVec2]) -> Option<Line> {
+        let (&start, &end) = (points.first()?, points.last()?);
+        let mut line = Line { kind, closed: false, start, pieces: Vec::new() };
+        self.stretch(points, [start, end], &mut line.pieces);
+        (!line.pieces.is_empty()).then_some(line)
+    }
+
     /// Whether a trail comes of what surfaces are made of rather than of their form.
     fn is_noise(&self, trail: &Trail) -> bool {
         let stations = &trail.stations;
@@ -107,7 +115,7 @@ impl Pen {
         let loose_below = |least: f64| trail.is_loose && length(stations) < least;
         match trail.kind {
             Kind::Silhouette => loose_below(SPECK) || trail.is_loose && share(&|jump| jump > RIPPLE) == 0.0,
-            Kind::Boundary => loose_below(SPECK),
+            Kind::Boundary | Kind::Hatch => loose_below(SPECK),
             Kind::Crease => loose_below(CHIP) || share(&|turn| turn >= self.crease) < SHARP,
         }
     }

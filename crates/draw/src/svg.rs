@@ -54,6 +54,7 @@ fn share(kind: Kind) -> f64 {
         Kind::Silhouette => 1.0,
         Kind::Boundary => 0.7,
         Kind::Crease => 0.55,
+        Kind::Hatch => 0.45,
     }
 }
 
@@ -113,7 +114,8 @@ pub fn svg(drawing: &Drawing, title: &str, style: &Style) -> String {
         "<g id=\"drawing\" fill=\"none\" stroke=\"#1d1712\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
     );
     // Thin lines below thick ones.
-    for kind in Kind::ALL.into_iter().rev() {
+    let is_used = |kind: &Kind| *kind != Kind::Hatch || drawing.lines.iter().any(|line| line.kind == *kind);
+    for kind in Kind::ALL.into_iter().rev().filter(is_used) {
         let mut width = String::new();
         number(&mut width, style.stroke * share(kind));
         let _ = writeln!(text, "<g id=\"{}\" stroke-width=\"{width}\">", kind.word());
