@@ -1,6 +1,7 @@
 //! Shared fixtures of the cross-crate tests.
 #![allow(clippy::expect_used, clippy::panic, reason = "a fixture that cannot be made is a failed test")]
 
+pub mod look;
 pub mod program;
 
 use std::path::{Path, PathBuf};

@@ -78,7 +78,7 @@ fn small(command: &str) -> Option<Vec<String>> {
     let width = words.iter().skip_while(|word| *word != "--width").nth(1).and_then(|w| w.parse().ok());
     let is_small =
         width.is_some_and(|width: u32| width <= 320) || says("--height") || says("--scale") || says("--crop");
-    if (says("render") || says("cost")) && !is_small {
+    if (says("render") || says("cost") || says("draw")) && !is_small {
         words.extend(["--scale", "0.1"].map(str::to_owned));
     }
     Some(words)

@@ -5,6 +5,7 @@
 
 mod completions;
 mod cost;
+mod draw;
 mod exit;
 mod info;
 mod interrupt;
@@ -35,6 +36,7 @@ Examples:
   durer render room.glb -o room.exr       a file of your own, as linear floats
   durer trace room.glb --pixel 320,240    why that pixel has its colour, ray by ray
   durer cost room.glb                     what its picture costs, and where to save
+  durer draw room.glb                     its lines, to room.svg
   durer info room.glb                     what is in the file, and what is odd about it
 
 Exit status:
@@ -57,6 +59,7 @@ enum Command {
     Render(render::Args),
     Trace(trace::Args),
     Cost(Box<cost::Args>),
+    Draw(Box<draw::Args>),
     Info(info::Args),
     Scenes(scenes::Args),
     Completions(completions::Args),
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Cost(args) => cost::run(&args),
+        Command::Draw(args) => draw::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Scenes(args) => scenes::run(&args),
         Command::Completions(args) => completions::run(&args),

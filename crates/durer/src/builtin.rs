@@ -28,6 +28,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/cook.pbrt"),
     },
     Builtin {
+        name: "durer",
+        doc: "a lute, the frame and the thread that draws it, after Dürer's woodcut of 1525",
+        text: include_str!("../scenes/durer.pbrt"),
+    },
+    Builtin {
         name: "bokeh",
         doc: "a brass pawn in focus, lights before and behind it in the shape of the lens's six blades",
         text: include_str!("../scenes/bokeh.pbrt"),

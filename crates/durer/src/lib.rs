@@ -21,6 +21,7 @@ mod prepare;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
+pub use durer_draw as draw;
 pub use durer_io::{
     FileAssets, image,
     import::{self, FORMATS, Imported},

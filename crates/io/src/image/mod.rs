@@ -14,7 +14,7 @@ mod source;
 use durer_scene::{AssetError, Image, Limits};
 
 pub use exr::{ExrPicture, ExrValue, NamedChannel, read_exr_channels, write_exr};
-pub use output::{PictureFormat, WRITERS, WriteError, Writer, writer_for};
+pub use output::{PictureFormat, WRITERS, WriteError, Writer, replace_file, writer_for};
 pub use png::write_png;
 
 use source::Source;

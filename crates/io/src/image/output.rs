@@ -73,7 +73,10 @@ pub(super) fn check_length(
 }
 
 /// Writes `bytes` beside `path` and renames, so that an interrupted run never leaves half a picture under that name.
-pub(super) fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let Some(name) = path.file_name() else {
         return Err(WriteError::new(path, "names no file"));
     };
