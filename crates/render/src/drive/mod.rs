@@ -8,10 +8,12 @@ mod crew;
 mod part;
 mod pass;
 mod settings;
+mod survey;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use part::{PartCount, scattered};
 pub use settings::{Nesting, Settings};
+pub use survey::Taken;
 
 use std::sync::{
     Mutex,

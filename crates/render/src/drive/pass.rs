@@ -28,9 +28,29 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
 /// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
 /// of the lens.
 pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Ray, f32) {
+    let (film, weight) = film_place(view, nesting, pixel, sampler);
+    (ray_through(view, nesting, film, pixel[1], sampler), weight)
+}
+
+/// Where in the picture a sample of `pixel` lies, in pixels, and what it counts.
+pub(super) fn film_place(
+    view: &View,
+    nesting: Nesting,
+    pixel: [u32; 2],
+    sampler: &Sampler,
+) -> (Point2, f32) {
     let place = view.filter.sample(sampler.shared_by(nesting.per_place()).d2(Dim::Pixel));
     let film = [0, 1].map(|i| pixel[i] as f32 + 0.5 + place.offset[i]);
-    (ray_through(view, nesting, Point2::new(film[0], film[1]), pixel[1], sampler), place.weight)
+    (Point2::new(film[0], film[1]), place.weight)
+}
+
+/// Where on the lens a sample starts, as [`durer_model::camera::Lens::at`] takes it; the centre of one that is a point.
+pub(super) fn lens_place(view: &View, nesting: Nesting, sampler: &Sampler) -> Point2 {
+    match nesting.lens {
+        0 => Lens::CENTRE,
+        _ if !view.camera.lens().is_open() => Lens::CENTRE,
+        _ => sampler.d2(Dim::Lens),
+    }
 }
 
 /// The eye ray through a point of the picture, in pixels, when the row it lies in is exposed.
@@ -45,11 +65,7 @@ fn ray_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &
         _ if view.shutter.is_instant() => 0.5,
         _ => sampler.shared_by(nesting.lens).d1(Dim::Time),
     };
-    let lens = match nesting.lens {
-        0 => Lens::CENTRE,
-        _ if !view.camera.lens().is_open() => Lens::CENTRE,
-        _ => sampler.d2(Dim::Lens),
-    };
+    let lens = lens_place(view, nesting, sampler);
     view.ray(film, lens, view.shutter.moment(u, row, view.height))
 }
 

@@ -1,0 +1,21 @@
+//! The ray tree as a document: what `durer trace` writes and everything that shows a tree reads.
+//!
+//! A [`Subject`] is traced into [`Tree`]s, and these are written: as JSON with all keys, as the data of a [`Page`], as a
+//! graph, a drawing, a table, a scene. `docs/ray-tree.md` describes the keys; a test keeps it and the schema beside it true.
+mod capture;
+mod compare;
+mod document;
+pub mod ghost;
+mod number;
+mod page;
+mod picture;
+
+pub use capture::Subject;
+pub use compare::Comparison;
+pub use document::{
+    Body, Drawn, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,
+};
+pub use ghost::GhostScene;
+pub use number::{Direction, Metres, Number, Place, Rgb, plain, rgb};
+pub use page::{Dimensions, Other, Page};
+pub use picture::Thumbnail;
