@@ -1,7 +1,10 @@
 //! From what the renderer recorded to the document.
+use std::sync::atomic::AtomicBool;
+
 use crate::{
     Prepared, View,
     drive::{Antialias, Gather, Taken},
+    film::Tile,
     math::Point3,
     probe::{RayTree, TreeNode},
     spectrum::{Basis, Spectrum},
@@ -9,7 +12,10 @@ use crate::{
 
 use super::{
     document::{Light, Node, Tests, Tree, VERSION},
+    ghost::GhostScene,
     number::{Metres, Number, Place, Rgb, rgb},
+    page::{Dimensions, Page},
+    picture::Thumbnail,
 };
 
 /// A scene that can be traced, and what it is called.
@@ -21,7 +27,62 @@ pub struct Subject<'a> {
     pub prepared: &'a Prepared,
 }
 
+/// What goes into a page beside the trees that were asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surroundings {
+    /// Nothing.
+    None,
+    /// The picture, small, and the scene's camera, lights and geometry.
+    Scene,
+    /// And trees of the pixel's other samples, up to so many nodes in all.
+    SceneAndSamples(usize),
+}
+
 impl Subject<'_> {
+    /// The trees of some samples of a pixel, and what belongs to them.
+    pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings) -> Page {
+        let samples = self.samples(pixel);
+        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s)).collect();
+        if let Surroundings::SceneAndSamples(most) = around {
+            let mut nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
+            for sample in (0..samples.len() as u32).filter(|s| !chosen.contains(s)) {
+                let tree = self.tree(pixel, &samples, sample);
+                nodes += tree.nodes.len();
+                if nodes > most {
+                    break;
+                }
+                trees.push(tree);
+            }
+        }
+        let with_scene = around != Surroundings::None;
+        Page {
+            version: VERSION,
+            trees,
+            other: None,
+            values: samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect(),
+            dims: samples
+                .iter()
+                .map(|s| Dimensions {
+                    film: s.film.map(Number),
+                    lens: s.lens.map(|l| l.map(Number)),
+                    time: Number(s.time),
+                })
+                .collect(),
+            mean: rgb(self.mean(pixel)),
+            picture: with_scene.then(|| Thumbnail::new(self.prepared)),
+            scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
+        }
+    }
+
+    /// What the picture holds of a pixel, bit for bit.
+    pub fn mean(&self, pixel: [u32; 2]) -> [f32; 3] {
+        let [x, y] = pixel;
+        let mut job = self.prepared.job();
+        job.settings.crop = Some(Tile { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+        let film = job.render(Gather::Rays, &(), &AtomicBool::new(false)).film;
+        film.pixels().get((y * film.width + x) as usize).map_or([0.0; 3], crate::film::Pixel::mean)
+    }
+
     /// All samples of a pixel, in their order.
     pub fn samples(&self, pixel: [u32; 2]) -> Vec<Taken> {
         self.prepared.job().samples_of(pixel, Gather::Rays)

@@ -10,7 +10,7 @@ mod number;
 mod page;
 mod picture;
 
-pub use capture::Subject;
+pub use capture::{Subject, Surroundings};
 pub use compare::Comparison;
 pub use document::{
     Body, Drawn, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,

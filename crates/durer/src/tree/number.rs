@@ -29,7 +29,7 @@ pub fn plain(v: Rgb) -> [f32; 3] {
 }
 
 /// A place from plain numbers.
-pub fn place(v: [f64; 3]) -> Place {
+pub(super) fn place(v: [f64; 3]) -> Place {
     v.map(Metres)
 }
 
