@@ -19,7 +19,7 @@ use durer_scene::{ColorInput, FloatInput};
 
 pub use medium::Medium;
 pub use surface::Surface;
-use texture::{Texture, TextureAt};
+use texture::{Looked, Texture, TextureAt, TextureLog, TextureLookup};
 
 /// What materials need to turn a point into a [`bsdf::Bsdf`].
 #[derive(Clone, Copy)]
@@ -28,6 +28,8 @@ pub struct ShadeCx<'a> {
     pub basis: Basis,
     /// The scene's textures, in the order of [`durer_scene::SceneDesc::textures`].
     pub textures: &'a [Box<dyn Texture>],
+    /// Where look-ups are noted, if somebody wants to know.
+    pub log: Option<&'a TextureLog>,
 }
 
 impl ShadeCx<'_> {
@@ -35,14 +37,28 @@ impl ShadeCx<'_> {
     pub fn color(&self, input: ColorInput, at: &TextureAt) -> Color {
         match input {
             ColorInput::Constant(color) => color,
-            ColorInput::Texture(index) => self.textures[index as usize].color(self, at),
+            ColorInput::Texture(index) => {
+                let color = self.textures[index as usize].color(self, at);
+                self.note(index, at, Looked::Color(color));
+                color
+            }
         }
     }
     /// The number of `input` at a point.
     pub fn float(&self, input: FloatInput, at: &TextureAt) -> f32 {
         match input {
             FloatInput::Constant(value) => value,
-            FloatInput::Texture(index) => self.textures[index as usize].float(self, at),
+            FloatInput::Texture(index) => {
+                let value = self.textures[index as usize].float(self, at);
+                self.note(index, at, Looked::Number(value));
+                value
+            }
+        }
+    }
+    #[inline]
+    fn note(&self, texture: u32, at: &TextureAt, value: Looked) {
+        if let Some(log) = self.log {
+            log.borrow_mut().push(TextureLookup { texture, uv: at.uv, value });
         }
     }
 }

@@ -11,7 +11,7 @@ use durer_model::{
 use durer_scene::{Args, Data, Diagnostics, Node, Params, Severity, ValueType, find};
 use durer_testkit::{DVec3, quadrature::cosine_hemisphere, random::Random};
 
-const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[] };
+const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[], log: None };
 
 fn built(kind: &str, params: Params) -> (Option<Box<dyn Material>>, Diagnostics) {
     let mut diagnostics = Diagnostics::default();

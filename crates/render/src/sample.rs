@@ -20,7 +20,7 @@ pub struct SampleCx<'a> {
 impl<'a> SampleCx<'a> {
     /// The part that materials need.
     pub fn shade(&self) -> ShadeCx<'a> {
-        ShadeCx { basis: self.basis, textures: &self.scene.textures }
+        ShadeCx { basis: self.basis, textures: &self.scene.textures, log: None }
     }
 }
 

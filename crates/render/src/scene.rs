@@ -4,7 +4,7 @@ use std::sync::Arc;
 use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
-    math::{Ray, Transform, Vector3},
+    math::{Point3, Ray, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
@@ -72,8 +72,12 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Materials, as [`Object::material`] numbers them.
     pub materials: Vec<Box<dyn Material>>,
+    /// Names of the materials; empty where the description gives none.
+    pub material_names: Vec<String>,
     /// Textures, in the order of the description.
     pub textures: Vec<Box<dyn Texture>>,
+    /// Names of the textures.
+    pub texture_names: Vec<String>,
     /// Lights.
     pub lights: Vec<Box<dyn Light>>,
     /// The lights that rays are cast to. PERF: asked for at every hit (bench render).
@@ -215,6 +219,24 @@ impl Scene {
                 let to_render = self.accel.instance_transform(hit.instance, ray.time);
                 shape_surface(&self.movers[*index as usize], &to_render.inverse().ray(ray), &to_render)
             }
+        }
+    }
+
+    /// Whether an instance of the kernel consists of triangles.
+    pub(crate) fn is_mesh(&self, instance: u32) -> bool {
+        !self.targets[instance as usize].is_shape()
+    }
+
+    /// Corners of the triangle that was hit at `time` seconds, in render space; `None` if it is none.
+    pub fn triangle(&self, hit: &Hit, time: f32) -> Option<[Point3; 3]> {
+        let corners = |mesh: &Mesh| mesh.corners(mesh.indices[hit.prim as usize].map(|i| i as usize), time);
+        match &self.targets[hit.instance as usize] {
+            Target::Baked(_, mesh) => Some(corners(mesh)),
+            Target::Mesh(_, mesh) => {
+                let to_render = self.accel.instance_transform(hit.instance, time);
+                Some(corners(mesh).map(|p| to_render.point(p)))
+            }
+            Target::Shapes | Target::Mover(_) => None,
         }
     }
 

@@ -16,3 +16,16 @@ pub enum Dim {
     /// Direction of a scattered ray.
     Scatter,
 }
+
+impl Dim {
+    /// The word in exports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pixel => "film",
+            Self::Time => "time",
+            Self::Lens => "lens",
+            Self::Light => "light",
+            Self::Scatter => "scatter",
+        }
+    }
+}

@@ -22,6 +22,11 @@ pub enum SamplerKind {
     Regular,
 }
 
+impl SamplerKind {
+    /// All kinds, in the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::Sobol, Self::Independent, Self::Stratified, Self::Regular];
+}
+
 /// The numbers of one sample of one pixel, at one node of its ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
@@ -48,6 +53,19 @@ impl Sampler {
     #[inline]
     pub fn middle() -> Self {
         Self { kind: SamplerKind::Regular, key: 0, index: 0, count: 1 }
+    }
+
+    /// Everything it is, in hexadecimal digits: kind, key, index and count.
+    pub fn to_hex(&self) -> String {
+        format!("{:x}{:016x}{:08x}{:08x}", self.kind as u8, self.key, self.index, self.count)
+    }
+    /// The sampler of which [`Sampler::to_hex`] gave `hex`; `None` if none gave it.
+    pub fn from_hex(hex: &str) -> Option<Self> {
+        let number = |digits: std::ops::Range<usize>| u64::from_str_radix(hex.get(digits)?, 16).ok();
+        let kind = SamplerKind::ALL.into_iter().find(|&kind| Some(kind as u64) == number(0..1))?;
+        let (key, index, count) = (number(1..17)?, number(17..25)? as u32, number(25..33)? as u32);
+        let sampler = Self { kind, key, index, count };
+        (sampler.to_hex() == hex).then_some(sampler)
     }
 
     /// The sampler of a child ray: different numbers for every `branch` (mirror and transmitted ray, i-th of n rays).

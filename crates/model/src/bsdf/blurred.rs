@@ -117,17 +117,42 @@ impl Blurred {
             return;
         }
         let side = Vector3::new(1.0, 1.0, wo.z.signum());
-        let h = ggx::visible_normal(o, alpha, u);
-        let (reflection, transmission) = self.interface.shares(o.dot(h).clamp(0.0, 1.0), eta);
-        let up = h * (2.0 * o.dot(h)) - o;
-        if up.z > 0.0 {
+        let [up, down] = self.split_at((o, eta), alpha, u);
+        if let Some((up, reflection)) = up.filter(|(up, _)| up.z > 0.0) {
             let weight = reflection * seen_by_both(o, up, alpha);
             self.add(wo, Branch { kind: BranchKind::Reflection, wi: scaled(up, side), weight }, draws);
         }
-        if let Some(down) = refract(o, Normal3::from(h), 1.0 / eta).filter(|down| down.z < 0.0) {
+        if let Some((down, transmission)) = down.filter(|(down, _)| down.z < 0.0) {
             let weight = transmission * seen_by_both(o, down, alpha);
             self.add(wo, Branch { kind: BranchKind::Transmission, wi: scaled(down, side), weight }, draws);
         }
+    }
+
+    /// The directions that the visible microfacet normal of a point of the unit square mirrors and refracts `o` to, and
+    /// their shares by Fresnel's equations.
+    fn split_at(&self, (o, eta): (Vector3, f32), alpha: f32, u: Point2) -> [Option<(Vector3, Spectrum)>; 2] {
+        let h = ggx::visible_normal(o, alpha, u);
+        let (reflection, transmission) = self.interface.shares(o.dot(h).clamp(0.0, 1.0), eta);
+        let up = h * (2.0 * o.dot(h)) - o;
+        let down = refract(o, Normal3::from(h), 1.0 / eta);
+        [Some((up, reflection)), down.map(|down| (down, transmission))]
+    }
+
+    /// What [`Blurred::draw`] loses to the wrong side of the surface, not dimmed by other microfacets.
+    pub(super) fn lost(&self, wo: Vector3, u: Point2) -> [Option<Branch>; 2] {
+        let Blur::Microfacet { alpha } = self.blur else { return [None; 2] };
+        let (o, _, eta) = self.upright(wo, wo);
+        if o.z == 0.0 || self.is_matched() {
+            return [None; 2];
+        }
+        let side = Vector3::new(1.0, 1.0, wo.z.signum());
+        let [up, down] = self.split_at((o, eta), alpha, u);
+        let branch = |kind| move |(wi, weight)| Branch { kind, wi: scaled(wi, side), weight };
+        let lost = [
+            up.filter(|(up, _)| up.z <= 0.0).map(branch(BranchKind::Reflection)),
+            down.filter(|(down, _)| down.z >= 0.0).map(branch(BranchKind::Transmission)),
+        ];
+        lost.map(|branch| branch.filter(|b| !b.weight.is_black()))
     }
 
     fn add(&self, wo: Vector3, branch: Branch, draws: &mut Draws) {

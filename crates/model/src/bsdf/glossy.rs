@@ -88,10 +88,7 @@ impl Glossy {
             return None;
         }
         let up = wo.z.signum();
-        let o = wo * up;
-        let h = ggx::visible_normal(o, self.alpha, u);
-        let cos = o.dot(h).min(1.0);
-        let wi = h * (2.0 * cos) - o;
+        let (o, wi, cos) = self.mirrored_at(wo * up, u);
         if wi.z <= 0.0 {
             return None;
         }
@@ -104,6 +101,23 @@ impl Glossy {
             weight: self.fresnel(cos) * (shadowing * self.scale),
         };
         (!branch.weight.is_black()).then(|| Drawn { branch, pdf: self.pdf(wo, branch.wi) })
+    }
+    /// `o`, its direction mirrored at the visible microfacet normal of a point of the unit square, and the cosine between
+    /// either and the normal.
+    fn mirrored_at(&self, o: Vector3, u: Point2) -> (Vector3, Vector3, f32) {
+        let h = ggx::visible_normal(o, self.alpha, u);
+        let cos = o.dot(h).min(1.0);
+        (o, h * (2.0 * cos) - o, cos)
+    }
+    /// What [`Glossy::draw`] loses into the surface, not dimmed by other microfacets.
+    pub(super) fn lost(&self, wo: Vector3, u: Point2) -> Option<Branch> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let up = wo.z.signum();
+        let (_, wi, cos) = self.mirrored_at(wo * up, u);
+        let weight = self.fresnel(cos) * self.scale;
+        (wi.z <= 0.0).then(|| Branch { kind: BranchKind::Reflection, wi: wi * up, weight })
     }
     /// Share of the lobe that the mirror branch carries.
     pub(super) fn mirror_share(&self) -> f32 {

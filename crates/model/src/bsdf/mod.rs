@@ -19,6 +19,7 @@ mod interface;
 mod lobe;
 mod refract;
 mod straight;
+mod view;
 
 use durer_core::{
     math::{Point2, Vector3},
@@ -37,6 +38,7 @@ pub use interface::{Interface, Split};
 pub use lobe::Lobe;
 pub use refract::{reflect, refract};
 pub use straight::Straight;
+pub use view::{FresnelView, LobeView, LostDraw};
 
 /// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ mod mapping;
 mod scale;
 mod value;
 
-use std::fmt::Debug;
+use std::{cell::RefCell, fmt::Debug};
 
 use durer_core::{
     math::{Point2, Point3},
@@ -38,6 +38,29 @@ pub struct TextureAt {
     /// Linear RGBA factor of the mesh's vertices.
     pub vertex_color: [f32; 4],
 }
+
+/// A look-up of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureLookup {
+    /// Index of the texture in the scene.
+    pub texture: u32,
+    /// Surface coordinates where it was asked.
+    pub uv: Point2,
+    /// What it said.
+    pub value: Looked,
+}
+
+/// What a texture yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Looked {
+    /// A colour, linear Rec. 709.
+    Color(Color),
+    /// A number.
+    Number(f32),
+}
+
+/// Look-ups in the order in which they were answered: a texture made of others comes after them.
+pub type TextureLog = RefCell<Vec<TextureLookup>>;
 
 /// A texture.
 pub trait Texture: Debug + Send + Sync {

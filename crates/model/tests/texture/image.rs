@@ -183,7 +183,7 @@ fn unsound_images_and_mappings_are_refused() {
 fn the_second_texture_coordinates_are_used_where_asked_for() {
     let image = grey(2, 1, vec![1.0, 2.0]);
     let place = durer_model::texture::TextureAt { second_uv: [0.75, 0.5].into(), ..super::at(0.25, 0.5) };
-    let cx = durer_model::ShadeCx { basis: durer_core::spectrum::Basis::Rgb, textures: &[] };
+    let cx = durer_model::ShadeCx { basis: durer_core::spectrum::Basis::Rgb, textures: &[], log: None };
     let with_set = |set: i32| float_map(Params::new().string("filter", "point").int("uvset", set), &image);
     assert_eq!([with_set(0).float(&cx, &place), with_set(1).float(&cx, &place)], [1.0, 2.0]);
     assert!(

@@ -49,11 +49,11 @@ fn at(u: f32, v: f32) -> TextureAt {
 }
 
 fn color(t: &dyn Texture, u: f32, v: f32) -> [f32; 3] {
-    t.color(&ShadeCx { basis: Basis::Rgb, textures: &[] }, &at(u, v)).rgb
+    t.color(&ShadeCx { basis: Basis::Rgb, textures: &[], log: None }, &at(u, v)).rgb
 }
 
 fn float(t: &dyn Texture, u: f32, v: f32) -> f32 {
-    t.float(&ShadeCx { basis: Basis::Rgb, textures: &[] }, &at(u, v))
+    t.float(&ShadeCx { basis: Basis::Rgb, textures: &[], log: None }, &at(u, v))
 }
 
 fn grey(width: u32, height: u32, data: Vec<f32>) -> Image {
@@ -78,7 +78,7 @@ fn boards_and_products_refer_to_other_textures() {
     let make = |kind, params| built(kind, TextureValue::Color, params, &image).expect("sound parameters");
     let others =
         [make("constant", Params::new().rgb("value", [0.1, 0.2, 0.3])), make("constant", Params::new())];
-    let cx = ShadeCx { basis: Basis::Rgb, textures: &others };
+    let cx = ShadeCx { basis: Basis::Rgb, textures: &others, log: None };
     let board =
         make("checkerboard", Params::new().texture("tex1", "a").texture("tex2", "b").float("uscale", 4.0));
     assert_eq!(board.color(&cx, &at(0.1, 0.1)), Color::new(0.1, 0.2, 0.3));

@@ -113,6 +113,8 @@ pub fn compile(
         report,
         objects: placed.objects,
         textures,
+        texture_names: desc.textures.iter().map(|t| t.name.clone()).collect(),
+        material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
         lights,

@@ -26,7 +26,7 @@ use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
-    probe::{Counters, RayTree},
+    probe::{Counters, Detail, RayTree, Recorder},
 };
 
 /// Edge of a tile in pixels.
@@ -154,9 +154,9 @@ impl<'a> Job<'a> {
     /// its centre and the middles of its right and lower edges, before the four parts are looked at in the order of the
     /// corners; a part that is not split may have one more, somewhere inside. An empty tree and black if the pixel has no such sample there.
     pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
-        let mut tree = RayTree::default();
-        let mut out = Contribution::default();
         let cx = self.cx();
+        let mut recorder = Recorder::new(&cx, Detail::default());
+        let mut out = Contribution::default();
         let ray = match self.adaptive() {
             None => Some(self.eye(pixel, sample).0),
             Some(how) => adaptive::places(self, &how, pixel)
@@ -164,9 +164,10 @@ impl<'a> Job<'a> {
                 .map(|&place| adaptive::eye(self, place)),
         };
         if let Some(ray) = ray {
-            self.integrator.record(&cx, ray, &mut out, &mut tree);
+            self.integrator.record(&cx, ray, &mut out, &mut recorder);
         }
-        (tree, film_value(&cx, &out).unwrap_or([0.0; 3]))
+        let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
+        (recorder.finish(&value), value)
     }
 
     /// Steps that a [`Progress`] is told of in all: samples, or of adaptive antialiasing corners and pixels.

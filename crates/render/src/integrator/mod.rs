@@ -13,7 +13,7 @@ use durer_scene::Entry;
 
 use crate::{
     Contribution, PathRay, SampleCx,
-    probe::{Counters, NoProbe, Probe, RayTree},
+    probe::{Counters, NoProbe, Probe, Recorder},
 };
 
 pub use cast::{Cast, Show};
@@ -77,7 +77,7 @@ pub trait Integrator: Send + Sync {
     /// [`Transport::sample`], unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::sample`], recorded.
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, tree: &mut RayTree);
+    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>);
     /// [`Transport::sample`], counted.
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters);
 }
@@ -95,8 +95,8 @@ impl<T: Transport> Integrator for T {
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         Transport::sample(self, cx, ray, (), &mut NoProbe, out);
     }
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, tree: &mut RayTree) {
-        Transport::sample(self, cx, ray, Default::default(), tree, out);
+    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
+        Transport::sample(self, cx, ray, Default::default(), recorder, out);
     }
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
         Transport::sample(self, cx, ray, Default::default(), counters, out);

@@ -78,6 +78,10 @@ impl MediumStack {
     /// Most bodies that a ray can be in at once.
     pub const CAPACITY: usize = 8;
 
+    /// True in empty space.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
     /// The bodies.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = Id<Medium>> {
         self.ids[..usize::from(self.len)].iter().map(|&id| Id::new(id))

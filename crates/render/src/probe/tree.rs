@@ -1,85 +1,50 @@
-//! The recorder: the ray tree of one sample.
-use durer_accel::{Hit, TraversalProbe};
-use durer_core::{
-    Id,
-    math::{Normal3, Point3, Vector3},
-    spectrum::Spectrum,
-};
-use durer_model::Surface;
+//! The ray tree of one sample, and what can be told from it.
+use durer_core::spectrum::Spectrum;
 
-use super::{LightEvent, Probe, RayKind, StopReason};
-use crate::{Object, PathRay};
+use super::TreeNode;
 
 /// Number of a node in its [`RayTree`]; none for the eye ray's parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct NodeId(Option<u32>);
+pub struct NodeId(pub(super) Option<u32>);
 
-/// Where a ray met a surface.
+/// Where in the picture, when and through which point of the lens a sample was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TreeHit {
-    /// What was hit.
-    pub object: Id<Object>,
-    /// Ray parameter, instance, primitive and barycentrics.
-    pub hit: Hit,
-    /// The point, in render space.
-    pub p: Point3,
-    /// Geometric normal.
-    pub n_g: Normal3,
-    /// Shading normal.
-    pub n_s: Normal3,
-    /// Surface coordinates.
-    pub uv: [f32; 2],
-    /// The ray came from the outside.
-    pub from_outside: bool,
+pub struct TreeEye {
+    /// Place in the picture, in pixels from its upper left corner.
+    pub film: [f32; 2],
+    /// Point of the lens, in metres from its centre; `None` for pinholes.
+    pub lens: Option<[f32; 2]>,
+    /// Moment, in seconds.
+    pub time: f32,
+    /// What the sample counts in the pixel, by the filter: may be negative. 1 with adaptive antialiasing, where areas
+    /// count.
+    pub filter_weight: f32,
 }
 
-/// One ray.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TreeNode {
-    /// The ray it was spawned by.
-    pub parent: Option<u32>,
-    /// What it is for.
-    pub kind: RayKind,
-    /// Bounces before it.
-    pub depth: u32,
-    /// Origin, in render space.
-    pub o: Point3,
-    /// Direction; for shadow rays of lights at a place its length is the distance.
-    pub d: Vector3,
-    /// What the parent multiplies the result with.
-    pub weight: Spectrum,
-    /// Share in the pixel.
-    pub throughput: Spectrum,
-    /// Radiance from no other ray.
-    pub local: Spectrum,
-    /// The ray's radiance.
-    pub result: Spectrum,
-    /// Where it met a surface.
-    pub hit: Option<TreeHit>,
-    /// What a shadow ray found out.
-    pub light: Option<LightEvent>,
-    /// Why nothing follows.
-    pub stop: Option<StopReason>,
-    /// Share in the pixel that an untraced ray would have had.
-    pub lost: Spectrum,
-    /// Boxes tested.
-    pub node_tests: u32,
-    /// Primitives tested.
-    pub primitive_tests: u32,
+/// What is recorded beside what is always.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Detail {
+    /// Rays traced at most; those beyond are given up ([`super::StopReason::Cancelled`]), and the sample is wrong.
+    pub rays: usize,
+    /// Rays, the first ones, whose boxes are recorded.
+    pub walks: usize,
+    /// Whether time is measured: it is never the same twice.
+    pub clock: Clock,
 }
 
-impl TreeNode {
-    /// What this ray itself adds to the pixel: the contributions of all nodes sum to the pixel, up to rounding.
-    pub fn contribution(&self) -> Spectrum {
-        self.throughput * self.local
-    }
-    /// Ray length, in metres: to the hit, or to the light.
-    pub fn length(&self) -> Option<f32> {
-        match (&self.hit, &self.light) {
-            (Some(hit), _) => Some(hit.hit.t * self.d.length()),
-            (None, Some(light)) if light.visible && light.point.is_some() => Some(self.d.length()),
-            _ => None,
-        }
+/// Whether time is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Clock {
+    /// Not at all.
+    #[default]
+    Off,
+    /// From each ray's announcement to its result.
+    On,
+}
+
+impl Default for Detail {
+    fn default() -> Self {
+        Self { rays: usize::MAX, walks: 0, clock: Clock::Off }
     }
 }
 
@@ -88,12 +53,23 @@ impl TreeNode {
 pub struct RayTree {
     /// The nodes; ids are indices.
     pub nodes: Vec<TreeNode>,
+    /// Where the eye ray comes from; `None` for trees that begin at another ray.
+    pub eye: Option<TreeEye>,
+    /// The node that an infinite or NaN value comes from, if there is one: the first whose own part or weight is, while
+    /// what its children bring is not.
+    pub bad: Option<u32>,
 }
 
 impl RayTree {
-    fn node(&mut self, id: NodeId) -> &mut TreeNode {
-        let index = id.0.map_or(0, |i| i as usize);
-        &mut self.nodes[index]
+    /// The children of each node, in recorded order.
+    pub fn children(&self) -> Vec<Vec<u32>> {
+        let mut children: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        for (index, node) in (0..).zip(&self.nodes) {
+            if let Some(siblings) = node.parent.and_then(|parent| children.get_mut(parent as usize)) {
+                siblings.push(index);
+            }
+        }
+        children
     }
 
     /// The pixel sample, computed again from the leaves: `local` plus weight times result of each child, in recorded
@@ -101,79 +77,45 @@ impl RayTree {
     pub fn fold(&self) -> Spectrum {
         let mut results: Vec<Spectrum> = self.nodes.iter().map(|n| n.local).collect();
         // A parent's sum must run over its children from first to last, and each child must be finished before.
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); self.nodes.len()];
-        for (index, node) in self.nodes.iter().enumerate() {
-            if let Some(parent) = node.parent {
-                children[parent as usize].push(index);
-            }
-        }
-        for index in (0..self.nodes.len()).rev() {
-            for &child in &children[index] {
-                let added = self.nodes[child].weight * results[child];
+        for (index, children) in self.children().iter().enumerate().rev() {
+            for &child in children {
+                let added = self.nodes[child as usize].weight * results[child as usize];
                 results[index] += added;
             }
         }
         results.first().copied().unwrap_or(Spectrum::BLACK)
     }
-}
 
-impl TraversalProbe for RayTree {
-    type Id = NodeId;
-    fn node(&mut self, id: NodeId, _: u32) {
-        RayTree::node(self, id).node_tests += 1;
+    /// See [`RayTree::bad`].
+    pub(super) fn first_bad(&self) -> Option<u32> {
+        let brought = |child: u32| {
+            let child = &self.nodes[child as usize];
+            child.weight * child.result
+        };
+        let children = self.children();
+        let is_source = |(index, node): &(u32, &TreeNode)| {
+            let own = node.weight * node.result;
+            let children = &children[*index as usize];
+            !own.is_finite() && children.iter().all(|&child| brought(child).is_finite())
+        };
+        (0..).zip(&self.nodes).find(is_source).map(|(index, _)| index)
     }
-    fn primitive(&mut self, id: NodeId, _: u32, _: u32) {
-        RayTree::node(self, id).primitive_tests += 1;
-    }
-}
 
-impl Probe for RayTree {
-    const RECORDS: bool = true;
+    /// The shares in the pixel of all rays that were given up, together. Times the largest radiance in the scene it bounds
+    /// what they would have brought.
+    pub fn killed(&self) -> Spectrum {
+        self.nodes.iter().fold(Spectrum::BLACK, |sum, node| sum + node.lost)
+    }
 
-    fn ray(&mut self, parent: NodeId, ray: &PathRay, kind: RayKind) -> NodeId {
-        self.nodes.push(TreeNode {
-            parent: parent.0,
-            kind,
-            depth: ray.depth,
-            o: ray.ray.o,
-            d: ray.ray.d,
-            weight: ray.weight,
-            throughput: ray.throughput,
-            local: Spectrum::BLACK,
-            result: Spectrum::BLACK,
-            hit: None,
-            light: None,
-            stop: None,
-            lost: Spectrum::BLACK,
-            node_tests: 0,
-            primitive_tests: 0,
-        });
-        NodeId(Some(self.nodes.len() as u32 - 1))
+    /// The largest lane of any ray's radiance, light of shadow rays included. Infinite and NaN results do not count.
+    pub fn max_radiance(&self) -> f32 {
+        let largest = self.nodes.iter().map(|node| node.result.max()).filter(|v| v.is_finite());
+        largest.fold(0.0, f32::max)
     }
-    fn surface(&mut self, id: NodeId, object: Id<Object>, hit: &Hit, surface: &Surface) {
-        let node = RayTree::node(self, id);
-        node.hit = Some(TreeHit {
-            object,
-            hit: *hit,
-            p: surface.p,
-            n_g: surface.n_g,
-            n_s: surface.n_s,
-            uv: [surface.uv.x, surface.uv.y],
-            from_outside: surface.is_outside(-node.d),
-        });
-    }
-    fn light(&mut self, id: NodeId, event: &LightEvent) {
-        RayTree::node(self, id).light = Some(*event);
-    }
-    fn local(&mut self, id: NodeId, radiance: Spectrum) {
-        RayTree::node(self, id).local = radiance;
-    }
-    fn stop(&mut self, id: NodeId, reason: StopReason, lost: Spectrum) {
-        let node = RayTree::node(self, id);
-        node.stop = Some(reason);
-        node.lost = lost;
-    }
-    fn result(&mut self, id: NodeId, radiance: Spectrum) {
-        RayTree::node(self, id).result = radiance;
+
+    /// What the pixel lacks at most because rays were given up, if nothing in the scene is brighter than what this tree
+    /// has seen: [`RayTree::killed`] times [`RayTree::max_radiance`].
+    pub fn lost_bound(&self) -> Spectrum {
+        self.killed() * self.max_radiance()
     }
 }

@@ -1,8 +1,7 @@
 //! Samplers: strata, independence, and how they divide.
 use super::*;
 
-const KINDS: [SamplerKind; 4] =
-    [SamplerKind::Sobol, SamplerKind::Independent, SamplerKind::Stratified, SamplerKind::Regular];
+const KINDS: [SamplerKind; 4] = SamplerKind::ALL;
 const DIMS: [Dim; 5] = [Dim::Pixel, Dim::Time, Dim::Lens, Dim::Light, Dim::Scatter];
 
 fn points(kind: SamplerKind, seed: u64, dim: Dim, n: u32) -> Vec<Point2> {
@@ -153,4 +152,21 @@ fn shared_samplers_are_spread_over_their_groups() {
     }
     let only = Sampler::new(SamplerKind::Sobol, 3, [5, 9], 3, 4).shared_by(4);
     assert_eq!(only.d2(Dim::Pixel), Point2::new(0.5, 0.5));
+}
+
+#[test]
+fn digits_hold_a_whole_sampler() {
+    for kind in KINDS {
+        let sampler = Sampler::new(kind, u64::MAX, [3, 9], 70_000, u32::MAX).fork(4);
+        let hex = sampler.to_hex();
+        assert_eq!(Sampler::from_hex(&hex), Some(sampler), "{hex}");
+        let broken = [
+            &hex[1..],
+            &format!("{hex}0"),
+            &hex.replace(&hex[..1], "9"),
+            "",
+            "0+00000000000000000000000000000000",
+        ];
+        broken.iter().for_each(|b| assert_eq!(Sampler::from_hex(b), None, "{b}"));
+    }
 }
