@@ -54,8 +54,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Render(render::Args),
-    Trace(trace::Args),
+    Render(Box<render::Args>),
+    Trace(Box<trace::Args>),
     Cost(Box<cost::Args>),
     Info(info::Args),
     Scenes(scenes::Args),

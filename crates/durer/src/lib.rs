@@ -28,7 +28,8 @@ pub use durer_io::{
 };
 pub use durer_model as model;
 pub use durer_render::{
-    Contribution, Form, ImbalanceTotals, MediumStack, Object, PathRay, Piece, SampleCx, Scene, Value, View, compile,
+    Contribution, Form, ImbalanceTotals, MediumStack, Object, PathRay, Piece, SampleCx, Scene, Value, View,
+    compile,
     drive::{self, Gather, Job, Progress, Rendered, Settings},
     film,
     integrator::{self, Output, Shadows, Show},

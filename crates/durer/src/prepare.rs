@@ -105,7 +105,14 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     };
     let integrator_name = registered_word(&integrator_node.kind);
     let rules = rules(&integrator_node);
-    Some(Prepared { scene, integrator, integrator_name, rules, material_names: material_names(desc), settings })
+    Some(Prepared {
+        scene,
+        integrator,
+        integrator_name,
+        rules,
+        material_names: material_names(desc),
+        settings,
+    })
 }
 
 /// Complains about a scene without geometry; `None` if that shall be an error and no sky of its own can be seen either.
@@ -216,7 +223,13 @@ fn short(v: f32) -> serde_json::Value {
 
 /// Keys are read by programs: words apart.
 fn rule_name(parameter: &str) -> String {
-    let words = [("max", "depth"), ("min", "contribution"), ("shadow", "rays"), ("gloss", "rays"), ("time", "samples")];
+    let words = [
+        ("max", "depth"),
+        ("min", "contribution"),
+        ("shadow", "rays"),
+        ("gloss", "rays"),
+        ("time", "samples"),
+    ];
     let more = [("lens", "samples"), ("aa", "samples"), ("attenuation", "distance")];
     let apart = words.into_iter().chain(more).find(|(a, b)| parameter.strip_prefix(a) == Some(b));
     apart.map_or_else(|| parameter.to_owned(), |(a, b)| format!("{a}_{b}"))

@@ -6,13 +6,14 @@ use crate::{
     drive::{Antialias, Gather, Taken},
     film::Tile,
     math::Point3,
-    probe::{RayTree, TreeNode},
+    probe::{TreeHit, TreeNode},
     spectrum::{Basis, Spectrum},
 };
 
 use super::{
-    document::{Light, Node, Tests, Tree, VERSION},
+    document::{Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
     ghost::GhostScene,
+    material,
     number::{Metres, Number, Place, Rgb, rgb},
     page::{Dimensions, Page},
     picture::Thumbnail,
@@ -94,7 +95,7 @@ impl Subject<'_> {
         let taken = samples.get(sample as usize);
         let view = &self.prepared.scene.view;
         let nodes: Vec<Node> =
-            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, &recorded, id, n)).collect();
+            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, id, n)).collect();
         Tree {
             version: VERSION,
             durer: env!("CARGO_PKG_VERSION").to_owned(),
@@ -116,8 +117,9 @@ impl Subject<'_> {
             time: taken.map(|t| Number(t.time)).unwrap_or_default(),
             rules: self.prepared.rules.clone(),
             rgb: rgb(as_film(value)),
-            killed: std::array::from_fn(|i| Number(nodes.iter().map(|n| n.lost[i].0).sum())),
-            max_radiance: Number(largest(&nodes)),
+            killed: of(recorded.killed()),
+            max_radiance: Number(recorded.max_radiance()),
+            bad: recorded.bad,
             nodes,
             diff: None,
         }
@@ -131,42 +133,30 @@ fn as_film(value: [f32; 3]) -> [f32; 3] {
     pixel.mean()
 }
 
-/// The largest radiance of the nodes, over their channels.
-fn largest(nodes: &[Node]) -> f32 {
-    let all = nodes.iter().flat_map(|n| n.result).map(|v| v.0);
-    all.filter(|v| v.is_finite()).fold(0.0, f32::max)
-}
-
-fn node(prepared: &Prepared, tree: &RayTree, id: usize, node: &TreeNode) -> Node {
+fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
     let scene = &prepared.scene;
     let place = |p: Point3| world(&scene.view, p);
-    let hit = node.hit.as_ref();
-    let d = node.d.normalize();
-    let _ = tree;
-    Node {
+    let shading = node.shading.as_ref();
+    let mut told = Node {
         id,
         parent: node.parent,
         kind: node.kind.word().to_owned(),
         depth: node.depth,
         origin: place(node.o),
-        direction: d.to_array().map(Number),
+        direction: node.d.normalize().to_array().map(Number),
         t: node.length().map(Number),
-        point: hit.map(|h| place(h.p)),
-        object: hit.map(|h| scene.object(h.object).name.clone()),
-        instance: hit.map(|h| h.hit.instance),
-        primitive: hit.map(|h| scene.resolve(&h.hit).1),
-        normal: hit.map(|h| h.n_s.to_array().map(Number)),
-        geometric_normal: hit.map(|h| h.n_g.to_array().map(Number)),
-        uv: hit.map(|h| h.uv.map(Number)),
-        side: hit.map(|h| if h.from_outside { "outside" } else { "inside" }.to_owned()),
-        cos: hit.map(|h| Number(h.n_s.dot(d).abs())),
+        time: Number(node.path.ray.time),
         weight: of(node.weight),
         throughput: of(node.throughput),
         local: of(node.local),
+        emission: shading.map(|s| of(s.emission)),
+        ambient: shading.map(|s| of(s.ambient)),
+        blurred_sky: shading.map(|s| of(s.blurred_sky)),
+        arrived: shading.map_or(rgb([1.0; 3]), |s| of(s.arrived)),
         contribution: of(node.contribution()),
         result: of(node.result),
-        arrived: rgb([1.0; 3]),
         stop: node.stop.map(|s| s.word().to_owned()),
+        limit: node.limit.map(|l| Limit { value: Number(l.value), threshold: Number(l.threshold) }),
         lost: of(node.lost),
         light: node.light.as_ref().map(|l| Light {
             index: l.light,
@@ -177,9 +167,59 @@ fn node(prepared: &Prepared, tree: &RayTree, id: usize, node: &TreeNode) -> Node
             unoccluded: of(l.unoccluded),
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
-        tests: Tests { boxes: node.node_tests, primitives: node.primitive_tests, ..Tests::default() },
+        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
+        fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
+        lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
+        drawn: node.chosen.as_ref().map(material::drawn),
+        random: random(node),
+        sampler: Some(node.path.sampler.to_hex()),
+        textures: shading.map(|s| material::lookups(scene, &s.textures)).unwrap_or_default(),
+        tests: Tests {
+            boxes: node.node_tests,
+            primitives: node.primitive_tests,
+            triangles: node.triangle_tests,
+            shapes: node.primitive_tests - node.triangle_tests,
+            ..Tests::default()
+        },
+        ns: node.ns,
+        walk: node
+            .walk
+            .iter()
+            .map(|b| TestedBox { corners: b.bounds.map(place), depth: b.depth, hit: b.hit })
+            .collect(),
         ..Node::default()
+    };
+    if let Some(hit) = &node.hit {
+        add_hit(&mut told, prepared, hit);
     }
+    told
+}
+
+/// Where a ray hit, and what.
+fn add_hit(told: &mut Node, prepared: &Prepared, hit: &TreeHit) {
+    let scene = &prepared.scene;
+    let place = |p: Point3| world(&scene.view, p);
+    let object = scene.object(hit.object);
+    told.point = Some(place(hit.p));
+    told.object = Some(object.name.clone());
+    told.instance = Some(hit.hit.instance);
+    told.primitive = Some(scene.resolve(&hit.hit).1);
+    told.material = Some(prepared.material_name(object.material));
+    told.normal = Some(hit.n_s.to_array().map(Number));
+    told.geometric_normal = Some(hit.n_g.to_array().map(Number));
+    told.uv = Some(hit.uv.map(Number));
+    told.barycentric = hit.barycentric().map(|b| b.map(Number));
+    told.triangle = hit.triangle.map(|t| t.map(place));
+    told.side = Some(if hit.from_outside { "outside" } else { "inside" }.to_owned());
+    told.cos = Some(Number(hit.cos));
+}
+
+/// The random numbers that led to a ray, one list for each purpose.
+fn random(node: &TreeNode) -> Vec<Random> {
+    let chosen = node.chosen.as_ref().and_then(|c| c.random.as_ref());
+    let all = node.random.iter().chain(chosen.filter(|c| !node.random.contains(c)));
+    all.map(|r| Random { dim: r.dim.word().to_owned(), u: r.numbers().iter().copied().map(Number).collect() })
+        .collect()
 }
 
 fn world(view: &View, p: Point3) -> Place {

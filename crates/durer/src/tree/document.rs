@@ -56,6 +56,8 @@ pub struct Tree {
     /// The largest radiance in the tree, over nodes and channels. `killed` times this bounds what was cut off, if nothing
     /// in the scene is brighter than what was seen.
     pub max_radiance: Number,
+    /// The node that an infinite or NaN value comes from; null if there is none.
+    pub bad: Option<u32>,
     /// The rays, parents before children, in the order they were announced; ids are indices.
     pub nodes: Vec<Node>,
     /// Against the same sample under other settings (`--diff`).
@@ -118,7 +120,10 @@ pub struct Node {
     pub emission: Option<Rgb>,
     /// Of `local`, the ambient term.
     pub ambient: Option<Rgb>,
-    /// The share of light that what lies along the ray leaves.
+    /// Of `local`, the sky's blurred image in glossy lobes that no ray is drawn from.
+    pub blurred_sky: Option<Rgb>,
+    /// The share of light that is left at the start of the ray of what leaves the surface: absorption in bodies and
+    /// attenuation by distance; 1 in air.
     pub arrived: Rgb,
     /// `throughput` times `local`: contributions of all nodes sum to `rgb`, up to rounding.
     pub contribution: Rgb,
@@ -207,7 +212,7 @@ pub struct Media {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Body {
-    /// The object that it fills.
+    /// An object that it fills. Bodies of one material are not told apart.
     pub object: String,
     /// Where bodies overlap that of the highest priority is there.
     pub priority: Option<i32>,
@@ -228,6 +233,10 @@ pub struct Fresnel {
     pub critical_angle: Option<Number>,
     /// All light is reflected here.
     pub tir: bool,
+    /// The material divides light by constants instead (Whitted 1980): `reflect` and `transmit` are what nature would do.
+    pub constant: bool,
+    /// Index of refraction behind the surface by that before it.
+    pub eta: Number,
 }
 
 /// A way in which a surface scatters light.
@@ -252,8 +261,12 @@ pub struct Lobe {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Drawn {
-    /// A lobe's name, `light`, or `sharp` where there was no choice.
+    /// `light` where a light was sampled, `sharp` where there is but one direction, else the lobe's name.
     pub from: String,
+    /// The lobe, if it was one that chose.
+    pub lobe: Option<String>,
+    /// How many rays share this one's place.
+    pub rays: u32,
     /// Density of the choice, 1/sr.
     pub pdf: Option<Number>,
     /// Density with which the other way of choosing gives the same direction, 1/sr.
@@ -299,7 +312,7 @@ pub struct Lookup {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Tests {
-    /// Boxes tested.
+    /// Nodes of hierarchies entered, each of which holds up to 8 or 16 boxes.
     pub boxes: u32,
     /// Primitives tested, of all kinds.
     pub primitives: u32,
@@ -330,7 +343,9 @@ pub struct TestedBox {
 impl Node {
     /// True if the ray was given up before it was traced.
     pub fn is_untraced(&self) -> bool {
-        crate::probe::StopReason::ALL.iter().any(|s| s.is_untraced() && self.stop.as_deref() == Some(s.word()))
+        crate::probe::StopReason::ALL
+            .iter()
+            .any(|s| s.is_untraced() && self.stop.as_deref() == Some(s.word()))
     }
     /// Where the ray ends: at its hit or light; `None` if it leaves the scene or was not traced.
     pub fn end(&self) -> Option<Place> {

@@ -5,17 +5,32 @@
 mod capture;
 mod compare;
 mod document;
+mod dot;
+mod find;
+mod format;
 pub mod ghost;
+mod glb;
+mod look;
+mod material;
 mod number;
 mod page;
 mod picture;
+mod svg;
+mod table;
 
 pub use capture::{Subject, Surroundings};
-pub use compare::Comparison;
+pub use compare::{Change, Comparison};
 pub use document::{
     Body, Drawn, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,
 };
+pub use dot::dot;
+pub use find::{Find, Found};
+pub use format::{FORMATS, Format};
 pub use ghost::GhostScene;
+pub use glb::{TooLarge, glb};
+pub use look::{Look, met, short, triple};
 pub use number::{Direction, Metres, Number, Place, Rgb, plain, rgb};
 pub use page::{Dimensions, Other, Page};
 pub use picture::Thumbnail;
+pub use svg::svg;
+pub use table::{csv, markdown};

@@ -28,29 +28,32 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
 /// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
 /// of the lens.
 pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Ray, f32) {
-    let (film, weight) = film_place(view, nesting, pixel, sampler);
+    let (film, weight) = place(view, nesting, pixel, sampler);
     (ray_through(view, nesting, film, pixel[1], sampler), weight)
 }
 
-/// Where in the picture a sample of `pixel` lies, in pixels, and what it counts.
-pub(super) fn film_place(
-    view: &View,
-    nesting: Nesting,
-    pixel: [u32; 2],
-    sampler: &Sampler,
-) -> (Point2, f32) {
-    let place = view.filter.sample(sampler.shared_by(nesting.per_place()).d2(Dim::Pixel));
+/// Where in the picture a sample of `pixel` lies, in pixels, and its weight.
+pub(super) fn place(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Point2, f32) {
+    let place = view.filter.sample(in_pixel(nesting, sampler));
     let film = [0, 1].map(|i| pixel[i] as f32 + 0.5 + place.offset[i]);
     (Point2::new(film[0], film[1]), place.weight)
 }
 
-/// Where on the lens a sample starts, as [`durer_model::camera::Lens::at`] takes it; the centre of one that is a point.
-pub(super) fn lens_place(view: &View, nesting: Nesting, sampler: &Sampler) -> Point2 {
-    match nesting.lens {
-        0 => Lens::CENTRE,
-        _ if !view.camera.lens().is_open() => Lens::CENTRE,
-        _ => sampler.d2(Dim::Lens),
-    }
+/// The numbers that spread samples over a pixel.
+pub(super) fn in_pixel(nesting: Nesting, sampler: &Sampler) -> Point2 {
+    sampler.shared_by(nesting.per_place()).d2(Dim::Pixel)
+}
+
+/// The number that chooses the moment; `None` if there is no choice.
+pub(super) fn moment(view: &View, nesting: Nesting, sampler: &Sampler) -> Option<f32> {
+    let chooses = nesting.time > 0 && !view.shutter.is_instant();
+    chooses.then(|| sampler.shared_by(nesting.lens).d1(Dim::Time))
+}
+
+/// The numbers that choose the point of the lens; `None` if there is no choice.
+pub(super) fn on_lens(view: &View, nesting: Nesting, sampler: &Sampler) -> Option<Point2> {
+    let chooses = nesting.lens > 0 && view.camera.lens().is_open();
+    chooses.then(|| sampler.d2(Dim::Lens))
 }
 
 /// The eye ray through a point of the picture, in pixels, when the row it lies in is exposed.
@@ -60,12 +63,8 @@ pub(super) fn ray_at(view: &View, nesting: Nesting, film: Point2, sampler: &Samp
 
 /// The eye ray through a point of the picture, in pixels, when this row is exposed.
 fn ray_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &Sampler) -> Ray {
-    let u = match nesting.time {
-        0 => 0.5,
-        _ if view.shutter.is_instant() => 0.5,
-        _ => sampler.shared_by(nesting.lens).d1(Dim::Time),
-    };
-    let lens = lens_place(view, nesting, sampler);
+    let u = moment(view, nesting, sampler).unwrap_or(0.5);
+    let lens = on_lens(view, nesting, sampler).unwrap_or(Lens::CENTRE);
     view.ray(film, lens, view.shutter.moment(u, row, view.height))
 }
 

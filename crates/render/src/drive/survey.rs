@@ -43,7 +43,7 @@ impl Job<'_> {
                 let places = adaptive::places(self, &how, pixel).into_iter();
                 let start = |place| Start {
                     ray: adaptive::eye(self, place),
-                    film: adaptive::film(place),
+                    film: adaptive::film_of(place),
                     weight: None,
                 };
                 places.map(start).collect()
@@ -51,7 +51,7 @@ impl Job<'_> {
             None => (0..self.settings.samples)
                 .map(|sample| {
                     let (ray, weight) = self.eye(pixel, sample);
-                    let (film, _) = pass::film_place(view, nesting, pixel, &ray.sampler);
+                    let (film, _) = pass::place(view, nesting, pixel, &ray.sampler);
                     Start { ray, film, weight: Some(weight) }
                 })
                 .collect(),
@@ -64,8 +64,7 @@ impl Job<'_> {
         let mut out = Contribution::default();
         let take = |(sample, start): (u32, Start)| {
             let Start { ray, film, weight } = start;
-            let lens = view.camera.lens();
-            let place = pass::lens_place(view, self.settings.nesting, &ray.sampler);
+            let lens = pass::on_lens(view, self.settings.nesting, &ray.sampler);
             let mut counters = gather.counters();
             match &mut counters {
                 Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
@@ -76,7 +75,7 @@ impl Job<'_> {
                 rgb: film_value(&cx, &out),
                 weight,
                 film: [film.x, film.y],
-                lens: lens.is_open().then(|| lens.at(place)),
+                lens: lens.map(|u| view.camera.lens().at(u)),
                 time: ray.ray.time,
                 counters,
             }
@@ -151,7 +150,9 @@ impl Job<'_> {
         }
         let n = found.len() as f32;
         match self.integrator.output() {
-            Output::Radiance => (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n)),
+            Output::Radiance => {
+                (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n))
+            }
             Output::Data(_) => found.first().copied(),
         }
     }

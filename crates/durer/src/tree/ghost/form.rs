@@ -133,7 +133,8 @@ pub(super) fn size(form: &Ghostly, copies: &[DAffine3]) -> f64 {
         Ghostly::Soup(soup) => {
             let m = copies.first().copied().unwrap_or_default();
             let points = soup.positions.iter().map(|p| m.transform_point3(*p));
-            let (low, high) = points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+            let (low, high) =
+                points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
             (high - low).length()
         }
     }

@@ -9,8 +9,7 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Object, Prepared, Scene, View,
-    Piece,
+    Object, Piece, Prepared, Scene, View,
     glam::{DAffine3, DVec3},
     math::{Normal3, Point2, Point3, Vector3},
     model::{ShadeCx, Surface},
@@ -20,7 +19,7 @@ use crate::{
 use super::number::{Metres, Number, Place, Rgb, rgb};
 
 pub use light::GhostLight;
-pub use quantise::GhostMesh;
+pub use quantise::{GhostMesh, Triangles};
 
 /// Triangles in all, before copies.
 const TRIANGLES: usize = 24_000;
@@ -65,8 +64,8 @@ pub struct GhostCamera {
     pub fov_y: Number,
     /// `perspective` or `orthographic`.
     pub kind: String,
-    /// Of an orthographic camera: width and height of what it sees, in metres.
-    pub extent: Option<[Number; 2]>,
+    /// Left, right, upper and lower edge of the picture: tangents right of and above the axis, or of parallel rays metres.
+    pub window: [Number; 4],
 }
 
 /// Things of the same form and material.
@@ -141,7 +140,8 @@ impl GhostScene {
         let empty = bounds.is_empty();
         Self {
             name: name.to_owned(),
-            bounds: [bounds.min, bounds.max].map(|p| if empty { <[Metres; 3]>::default() } else { corner(p) }),
+            bounds: [bounds.min, bounds.max]
+                .map(|p| if empty { <[Metres; 3]>::default() } else { corner(p) }),
             camera: camera(&scene.view),
             objects,
             lights: light::lights(scene, &bounds),
@@ -273,7 +273,7 @@ fn rows(m: &DAffine3) -> [Number; 12] {
 /// The mean colour of a material over some places of a surface that faces the eye.
 fn color(scene: &Scene, object: &Object, world: DVec3) -> Rgb {
     let material = &*scene.materials[object.material as usize];
-    let cx = ShadeCx { basis: Basis::Rgb, textures: &scene.textures };
+    let cx = ShadeCx { basis: Basis::Rgb, textures: &scene.textures, log: None };
     let mut sum = [0.0f32; 3];
     for i in 0..16u8 {
         let uv = Point2::new(f32::from(i % 4) / 4.0 + 0.125, f32::from(i / 4) / 4.0 + 0.125);
@@ -299,7 +299,8 @@ fn color(scene: &Scene, object: &Object, world: DVec3) -> Rgb {
 fn camera(view: &View) -> GhostCamera {
     let time = view.shutter.interval().min;
     let placed = view.render_from_camera(time);
-    let axis = |x: f32, y: f32, z: f32| placed.vector(Vector3::new(x, y, z)).normalize().to_array().map(Number);
+    let axis =
+        |x: f32, y: f32, z: f32| placed.vector(Vector3::new(x, y, z)).normalize().to_array().map(Number);
     let (w, h) = (view.width as f32, view.height as f32);
     let ray = |x: f32, y: f32| view.ray(Point2::new(x, y), crate::model::camera::Lens::CENTRE, time);
     let edges = [[ray(0.0, h / 2.0), ray(w, h / 2.0)], [ray(w / 2.0, 0.0), ray(w / 2.0, h)]];
@@ -308,6 +309,12 @@ fn camera(view: &View) -> GhostCamera {
         Number(libm::atan2(cross, dot).to_degrees() as f32)
     });
     let parallel = angle[0].0 == 0.0 && angle[1].0 == 0.0;
+    let back = placed.inverse();
+    let edge = |ray: &crate::math::Ray, axis: usize| {
+        let (o, d) = (back.point(ray.o).to_array(), back.vector(ray.d).to_array());
+        if parallel { o[axis] } else { d[axis] / d[2] }
+    };
+    let [x, y] = [0, 1].map(|axis| [edge(&edges[axis][0], axis), edge(&edges[axis][1], axis)]);
     GhostCamera {
         eye: (placed.point(Point3::ZERO).to_f64() + view.world_from_render).to_array().map(Metres),
         right: axis(1.0, 0.0, 0.0),
@@ -316,6 +323,6 @@ fn camera(view: &View) -> GhostCamera {
         fov_x: angle[0],
         fov_y: angle[1],
         kind: if parallel { "orthographic" } else { "perspective" }.to_owned(),
-        extent: parallel.then(|| edges.map(|[a, b]| Number((b.o - a.o).length()))),
+        window: [x[0], x[1], y[0], y[1]].map(Number),
     }
 }

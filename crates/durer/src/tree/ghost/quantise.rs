@@ -26,12 +26,16 @@ pub struct GhostMesh {
     pub wide: bool,
 }
 
+/// Points, and three of them for each triangle.
+pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
 impl GhostMesh {
     pub(super) fn new(soup: &Soup) -> Self {
         let soup = soup.without_unused();
         let low = soup.positions.iter().fold(DVec3::INFINITY, |a, p| a.min(*p));
         let high = soup.positions.iter().fold(DVec3::NEG_INFINITY, |a, p| a.max(*p));
-        let (low, span) = if low.is_finite() { (low, (high - low).max_element()) } else { (DVec3::ZERO, 0.0) };
+        let (low, span) =
+            if low.is_finite() { (low, (high - low).max_element()) } else { (DVec3::ZERO, 0.0) };
         let scale = (span / f64::from(u16::MAX)) as f32;
         let step = if scale > 0.0 { f64::from(scale) } else { 1.0 };
         let quantised = soup.positions.iter().flat_map(|p| {
@@ -54,7 +58,7 @@ impl GhostMesh {
     }
 
     /// Points and triangles again; `None` if it is damaged.
-    pub fn unpacked(&self) -> Option<(Vec<[f64; 3]>, Vec<[u32; 3]>)> {
+    pub fn unpacked(&self) -> Option<Triangles> {
         let (positions, indices) =
             (STANDARD.decode(&self.positions).ok()?, STANDARD.decode(&self.indices).ok()?);
         let numbers: Vec<u16> = positions.as_chunks::<2>().0.iter().map(|b| u16::from_le_bytes(*b)).collect();
@@ -78,7 +82,8 @@ mod tests {
 
     #[test]
     fn points_come_back_within_half_a_step() {
-        let positions = vec![DVec3::new(-3.0, 1e3, 0.1), DVec3::new(5.0, 1001.0, 0.2), DVec3::new(0.3, 1e3, 0.3)];
+        let positions =
+            vec![DVec3::new(-3.0, 1e3, 0.1), DVec3::new(5.0, 1001.0, 0.2), DVec3::new(0.3, 1e3, 0.3)];
         let soup = Soup { positions: positions.clone(), indices: vec![[0, 2, 1]] };
         let mesh = GhostMesh::new(&soup);
         let (points, triangles) = mesh.unpacked().expect("a sound mesh");

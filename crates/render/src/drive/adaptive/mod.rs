@@ -121,11 +121,11 @@ impl Splits {
 /// The eye ray through a place of the picture.
 pub(super) fn eye(job: &Job<'_>, place: [u32; 2]) -> PathRay {
     let sampler = Sampler::new(job.settings.sampler, job.settings.seed, place, 0, 1);
-    PathRay::eye(pass::ray_at(&job.scene.view, job.settings.nesting, film(place), &sampler), sampler)
+    PathRay::eye(pass::ray_at(&job.scene.view, job.settings.nesting, film_of(place), &sampler), sampler)
 }
 
 /// A place in pixels.
-pub(super) fn film(place: [u32; 2]) -> Point2 {
+pub(super) fn film_of(place: [u32; 2]) -> Point2 {
     Point2::new(place[0] as f32 / GRID as f32, place[1] as f32 / GRID as f32)
 }
 
