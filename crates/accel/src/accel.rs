@@ -157,7 +157,7 @@ impl Accel {
     }
 
     /// All trees and whose they are.
-    fn trees(&self) -> impl Iterator<Item = (Option<GeometryId>, &Forest, &Tree)> {
+    pub(crate) fn trees(&self) -> impl Iterator<Item = (Option<GeometryId>, &Forest, &Tree)> {
         let own =
             (0..).zip(&self.geometries).filter_map(|(i, g)| Some((Some(GeometryId(i)), g.forest.as_ref()?)));
         let movers = self.movers.iter().map(|movers| (None, &movers.forest));

@@ -7,11 +7,13 @@ mod adaptive;
 mod crew;
 mod part;
 mod pass;
+mod record;
 mod settings;
 mod survey;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use part::{PartCount, scattered};
+pub use record::KilledMap;
 pub use settings::{Nesting, Settings};
 pub use survey::Taken;
 
@@ -26,7 +28,7 @@ use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
-    probe::{Counters, Detail, RayTree, Recorder},
+    probe::Counters,
 };
 
 /// Edge of a tile in pixels.
@@ -146,28 +148,6 @@ impl<'a> Job<'a> {
     /// taking them.
     pub fn sample_count(&self, pixel: [u32; 2]) -> u32 {
         self.adaptive().map_or(self.settings.samples, |how| adaptive::places(self, &how, pixel).len() as u32)
-    }
-
-    /// The ray tree of one sample, made by running it again, watched; and the linear RGB that the film stores of it.
-    /// Of adaptive antialiasing it is the `sample`-th place of the pixel: first its corners, upper left, upper right,
-    /// lower left and lower right; then, for each split, what its square lacks of the middles of its upper and left edges,
-    /// its centre and the middles of its right and lower edges, before the four parts are looked at in the order of the
-    /// corners; a part that is not split may have one more, somewhere inside. An empty tree and black if the pixel has no such sample there.
-    pub fn record(&self, pixel: [u32; 2], sample: u32) -> (RayTree, [f32; 3]) {
-        let cx = self.cx();
-        let mut recorder = Recorder::new(&cx, Detail::default());
-        let mut out = Contribution::default();
-        let ray = match self.adaptive() {
-            None => Some(self.eye(pixel, sample).0),
-            Some(how) => adaptive::places(self, &how, pixel)
-                .get(sample as usize)
-                .map(|&place| adaptive::eye(self, place)),
-        };
-        if let Some(ray) = ray {
-            self.integrator.record(&cx, ray, &mut out, &mut recorder);
-        }
-        let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
-        (recorder.finish(&value), value)
     }
 
     /// Steps that a [`Progress`] is told of in all: samples, or of adaptive antialiasing corners and pixels.

@@ -9,8 +9,8 @@ use super::{
     shading::{LIGHT_BRANCH, Shading},
 };
 use crate::{
-    Contribution, PathRay, SampleCx, Value,
-    probe::{Counters, Probe, RayKind, StopReason},
+    Contribution, MediumStack, PathRay, SampleCx, Value,
+    probe::{Counters, Probe, RayKind, Shaded, StopReason, TreeNode},
 };
 
 /// What a ray cast shows of the nearest hit.
@@ -98,6 +98,9 @@ impl Transport for Cast {
             Some(hit) => {
                 let s = Shading::at(cx, &ray.ray, &hit);
                 probe.surface(id, s.object, &hit, &s.surface);
+                if P::RECORDS {
+                    probe.shaded(id, &self.shaded(cx, &s));
+                }
                 probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
                 self.hit(cx, &ray, &hit, &s)
             }
@@ -114,6 +117,16 @@ impl Transport for Cast {
             probe.result(id, radiance);
         }
     }
+    fn again<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        Transport::sample(self, cx, node.path, parent, probe, out);
+    }
 }
 
 /// Tests of primitives and of boxes on the way to the nearest hit: also of rays that hit nothing.
@@ -125,6 +138,25 @@ fn count(cx: &SampleCx<'_>, ray: &PathRay) -> Value {
 }
 
 impl Cast {
+    /// The hit for those who record; what is no light has no parts.
+    fn shaded<'s>(&self, cx: &SampleCx<'_>, s: &'s Shading) -> Shaded<'s> {
+        let nothing = MediumStack::default();
+        let of_light = |part: &dyn Fn() -> Spectrum| match self.show {
+            Show::Shading => part(),
+            _ => Spectrum::BLACK,
+        };
+        Shaded {
+            wo: s.wo_local,
+            bsdf: &s.bsdf,
+            before: nothing,
+            after: nothing,
+            arrived: Spectrum::ONE,
+            emission: of_light(&|| s.sent_out()),
+            ambient: of_light(&|| s.ambient(cx)),
+            blurred_sky: of_light(&|| s.blurred_sky(cx)),
+        }
+    }
+
     fn hit(&self, cx: &SampleCx<'_>, ray: &PathRay, hit: &Hit, s: &Shading) -> Value {
         let data = |v: [f32; 3]| Value::Data(Some(v));
         match self.show {

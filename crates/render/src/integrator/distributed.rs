@@ -17,7 +17,10 @@ use super::{
     EyeSamples, Integrator, Transport,
     walk::{Rules, Walk},
 };
-use crate::{Contribution, PathRay, SampleCx, probe::Probe};
+use crate::{
+    Contribution, PathRay, SampleCx,
+    probe::{Probe, TreeNode},
+};
 
 /// How the rays of several effects are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -148,5 +151,15 @@ impl Transport for Distributed {
         out: &mut Contribution,
     ) {
         Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
+    }
+    fn again<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        Walk::new(&self.rules, cx, probe).again(node, parent, out);
     }
 }

@@ -13,7 +13,7 @@ use durer_scene::Entry;
 
 use crate::{
     Contribution, PathRay, SampleCx,
-    probe::{Counters, NoProbe, Probe, Recorder},
+    probe::{Counters, NoProbe, Probe, Recorder, TreeNode},
 };
 
 pub use cast::{Cast, Show};
@@ -64,6 +64,15 @@ pub trait Transport: Send + Sync {
         probe: &mut P,
         out: &mut Contribution,
     );
+    /// Traces a recorded ray, and all it spawns, again.
+    fn again<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    );
 }
 
 /// Light transport as the driver holds it; nobody implements it by hand.
@@ -78,6 +87,8 @@ pub trait Integrator: Send + Sync {
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::sample`], recorded.
     fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>);
+    /// [`Transport::again`], recorded.
+    fn replay(&self, cx: &SampleCx<'_>, node: &TreeNode, out: &mut Contribution, recorder: &mut Recorder<'_>);
     /// [`Transport::sample`], counted.
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters);
 }
@@ -97,6 +108,15 @@ impl<T: Transport> Integrator for T {
     }
     fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
         Transport::sample(self, cx, ray, Default::default(), recorder, out);
+    }
+    fn replay(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        out: &mut Contribution,
+        recorder: &mut Recorder<'_>,
+    ) {
+        Transport::again(self, cx, node, Default::default(), recorder, out);
     }
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
         Transport::sample(self, cx, ray, Default::default(), counters, out);

@@ -138,6 +138,12 @@ impl Shading {
         Some((f * wi.z.abs(), sample))
     }
 
+    /// The sample for which [`Shading::light`] says nothing, if that is because the light lies behind the surface.
+    pub(super) fn behind(&self, cx: &SampleCx<'_>, light: usize, sampler: &Sampler) -> Option<LightSample> {
+        let asked = LightCx { basis: cx.basis, time: self.time };
+        cx.scene.lights[light].sample(&asked, self.surface.p, sampler)
+    }
+
     /// Whether a ray that goes on in direction `d` stays on its side of the true surface or goes through.
     pub(super) fn side_of(&self, d: Vector3) -> BranchKind {
         match self.surface.is_outside(d) == self.surface.is_outside(self.wo) {

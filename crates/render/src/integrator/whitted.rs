@@ -11,7 +11,10 @@ use super::{
     Integrator, Transport,
     walk::{Rules, Walk},
 };
-use crate::{Contribution, PathRay, SampleCx, probe::Probe};
+use crate::{
+    Contribution, PathRay, SampleCx,
+    probe::{Probe, TreeNode},
+};
 
 /// Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,5 +48,15 @@ impl Transport for Whitted {
         out: &mut Contribution,
     ) {
         Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
+    }
+    fn again<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        Walk::new(&self.rules, cx, probe).again(node, parent, out);
     }
 }

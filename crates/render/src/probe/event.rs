@@ -99,7 +99,8 @@ pub struct Choice {
     pub by: ChosenBy,
     /// Name of the lobe; `None` if lights were sampled, which all lobes reflect.
     pub lobe: Option<&'static str>,
-    /// Value of all lobes for this direction if a light was sampled, else of the one, 1/sr.
+    /// Value of all lobes for this direction if a light was sampled, else of the one, 1/sr. If `mis` differs from lobe to
+    /// lobe it holds each by its share, with the same mean over the lanes.
     pub f: Option<Spectrum>,
     /// Cosine between the direction and the shading normal, 0 to 1.
     pub cos: Option<f32>,
@@ -118,11 +119,11 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// That of the only direction of a sharp lobe.
-    pub fn sharp(lobe: &'static str) -> Self {
+    /// That of the only direction of a sharp lobe without a name.
+    pub fn sharp() -> Self {
         Self {
             by: ChosenBy::Sharp,
-            lobe: Some(lobe),
+            lobe: None,
             f: None,
             cos: None,
             pdf: None,

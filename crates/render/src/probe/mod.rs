@@ -11,6 +11,7 @@ mod node;
 mod recorder;
 mod stop;
 mod tree;
+mod walk;
 
 pub use counters::Counters;
 pub use event::{Choice, ChosenBy, LightEvent, RandomNumbers, Shaded};

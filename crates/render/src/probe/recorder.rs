@@ -8,6 +8,7 @@ use durer_model::{Surface, texture::TextureLookup};
 use super::{
     Choice, Clock, Detail, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded, StopReason, TreeHit,
     TreeMedia, TreeNode, TreeShading,
+    walk::{self, Step},
 };
 use crate::{Object, PathRay, SampleCx};
 
@@ -20,12 +21,19 @@ pub struct Recorder<'a> {
     chosen: Option<Choice>,
     /// When each ray was announced, if that matters.
     begun: Vec<Instant>,
+    /// What the first rays met on their walks, if that matters.
+    walks: Vec<Vec<Step>>,
 }
 
 impl<'a> Recorder<'a> {
     /// A recorder that has seen nothing.
     pub fn new(cx: &SampleCx<'a>, detail: Detail) -> Self {
-        Self { cx: *cx, detail, tree: RayTree::default(), chosen: None, begun: Vec::new() }
+        Self { cx: *cx, detail, tree: RayTree::default(), chosen: None, begun: Vec::new(), walks: Vec::new() }
+    }
+
+    /// How the ray came about that is traced next.
+    pub fn chose(&mut self, choice: &Choice) {
+        self.chosen = Some(*choice);
     }
 
     /// The tree. `value` is what the film got: if it is infinite or NaN, the film leaves the sample out.
@@ -37,7 +45,19 @@ impl<'a> Recorder<'a> {
             eye.lost = eye.throughput;
             self.tree.bad = self.tree.first_bad();
         }
+        for (node, steps) in self.tree.nodes.iter_mut().zip(&self.walks) {
+            node.walk = walk::boxes(&self.cx.scene.accel, node, steps);
+        }
         self.tree
+    }
+
+    /// Notes a step of one of the first rays.
+    fn step(&mut self, id: NodeId, step: Step) {
+        let index = id.0.map_or(0, |i| i as usize);
+        if index < self.detail.walks {
+            self.walks.resize_with(self.walks.len().max(index + 1), Vec::new);
+            self.walks[index].push(step);
+        }
     }
 
     fn node(&mut self, id: NodeId) -> &mut TreeNode {
@@ -63,14 +83,16 @@ impl<'a> Recorder<'a> {
 
 impl TraversalProbe for Recorder<'_> {
     type Id = NodeId;
-    fn node(&mut self, id: NodeId, _: u32) {
+    fn node(&mut self, id: NodeId, bvh_node: u32) {
         Recorder::node(self, id).node_tests += 1;
+        self.step(id, Step::Node(bvh_node));
     }
     fn primitive(&mut self, id: NodeId, instance: u32, _: u32) {
         let is_triangle = self.cx.scene.is_mesh(instance);
         let node = Recorder::node(self, id);
         node.primitive_tests += 1;
         node.triangle_tests += u32::from(is_triangle);
+        self.step(id, Step::Primitive(instance));
     }
 }
 
@@ -81,7 +103,7 @@ impl Probe for Recorder<'_> {
         self.tree.nodes.len() >= self.detail.rays
     }
     fn chosen(&mut self, choice: &Choice) {
-        self.chosen = Some(*choice);
+        self.chose(choice);
     }
     fn ray(&mut self, parent: NodeId, ray: &PathRay, kind: RayKind) -> NodeId {
         let chosen = self.chosen.take();

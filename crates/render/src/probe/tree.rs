@@ -107,10 +107,14 @@ impl RayTree {
         self.nodes.iter().fold(Spectrum::BLACK, |sum, node| sum + node.lost)
     }
 
-    /// The largest lane of any ray's radiance, light of shadow rays included. Infinite and NaN results do not count.
+    /// The largest lane of any ray's radiance, the light of shadow rays included, also of those that were given up.
+    /// Infinite and NaN ones do not count.
     pub fn max_radiance(&self) -> f32 {
-        let largest = self.nodes.iter().map(|node| node.result.max()).filter(|v| v.is_finite());
-        largest.fold(0.0, f32::max)
+        let of = |node: &TreeNode| match &node.light {
+            Some(light) if !node.is_traced() => light.unoccluded.max(),
+            _ => node.result.max(),
+        };
+        self.nodes.iter().map(of).filter(|v| v.is_finite()).fold(0.0, f32::max)
     }
 
     /// What the pixel lacks at most because rays were given up, if nothing in the scene is brighter than what this tree

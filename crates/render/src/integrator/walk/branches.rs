@@ -28,6 +28,9 @@ impl<P: Probe> Walk<'_, P> {
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
             let ray = s.surface.spawn(d, parent.ray.time);
             let child = PathRay { media, ..parent.child((s.surface.p, ray), branch.weight, count) };
+            if P::RECORDS {
+                self.report_branch(s, count);
+            }
             radiance += branch.weight * self.trace(&child, kind, id);
             count += 1;
         }
@@ -37,7 +40,9 @@ impl<P: Probe> Walk<'_, P> {
             self.probe.stop(refused, StopReason::TirNoRefraction, child.throughput);
             self.probe.result(refused, Spectrum::BLACK);
         } else if count == 0 && !follows {
-            self.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+            let absorbs = P::ACTIVE && s.bsdf.is_black();
+            let reason = if absorbs { StopReason::Absorbed } else { StopReason::OpaqueNoChildren };
+            self.probe.stop(id, reason, Spectrum::BLACK);
         }
         radiance
     }

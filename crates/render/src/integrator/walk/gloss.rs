@@ -39,7 +39,15 @@ impl<P: Probe> Walk<'_, P> {
                     siblings: parent.siblings * rays as f32,
                     ..parent.child((s.surface.p, ray), branch.weight / rays as f32, 0)
                 };
+                if P::RECORDS {
+                    let u = |lobe: u32| sampler_of(lobe).d2(Dim::Scatter);
+                    self.report_draw(s, u, (number, drawn), rays);
+                }
                 radiance += child.weight * self.trace(&child, kind, id);
+            }
+            if P::ACTIVE {
+                let u = |lobe: u32| sampler_of(lobe).d2(Dim::Scatter);
+                self.report_lost_draws(parent, (s, crossing), u, rays, id);
             }
         }
         radiance

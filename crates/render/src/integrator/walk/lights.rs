@@ -24,8 +24,14 @@ impl<P: Probe> Walk<'_, P> {
                 let Some((weight, sample)) =
                     s.light(cx, light, &self.part(sampler, part), |pdf| self.seen(pdf))
                 else {
+                    if P::ACTIVE {
+                        self.report_dark(ray, (s, crossing), (light, part), &self.part(sampler, part), id);
+                    }
                     continue;
                 };
+                if P::RECORDS {
+                    self.report_light(s, &self.part(sampler, part), &sample);
+                }
                 if sample.pdf.is_none() {
                     // There is but one way to a light without extent.
                     radiance += weight * self.shadow(ray, (s, crossing), light, weight, &sample, id);
@@ -47,7 +53,7 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// How rays that follow a hit will meet a light that is sampled with the density `pdf`.
-    fn seen(&self, pdf: f32) -> Seen {
+    pub(super) fn seen(&self, pdf: f32) -> Seen {
         match self.rules.gloss_rays {
             None => Seen::Branches,
             Some(rays) => Seen::Draws { pdf: self.light_density(pdf), rays: rays.get() as f32 },
@@ -55,7 +61,7 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// Density of all shadow rays to a light together; 0 if they all go to its middle and leave no other to be found.
-    fn light_density(&self, pdf: f32) -> f32 {
+    pub(super) fn light_density(&self, pdf: f32) -> f32 {
         pdf * self.rules.shadow_rays as f32
     }
 

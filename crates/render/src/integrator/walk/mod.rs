@@ -11,6 +11,7 @@ mod branches;
 mod gloss;
 mod lights;
 mod medium;
+mod report;
 mod rules;
 mod shadow;
 
@@ -21,9 +22,10 @@ use super::shading::Shading;
 use crate::{
     Contribution, Imbalances, PathRay, SampleCx, Value,
     media::Boundary,
-    probe::{Probe, RayKind, StopReason},
+    probe::{Probe, RayKind, StopReason, TreeNode},
 };
 
+use report::Parts;
 pub(super) use rules::Rules;
 pub use rules::Shadows;
 
@@ -53,11 +55,23 @@ impl<'a, P: Probe> Walk<'a, P> {
         out.imbalances = self.imbalances;
     }
 
+    /// Follows a recorded ray once more.
+    pub(super) fn again(mut self, node: &TreeNode, parent: P::Id, out: &mut Contribution) {
+        let radiance = match &node.light {
+            Some(event) => self.send_shadow(&node.path, event.light, (event.point, event.unoccluded), parent),
+            None => self.trace(&node.path, node.kind, parent),
+        };
+        out.value = Value::Radiance(radiance);
+    }
+
     /// Radiance arriving along a ray.
     pub(super) fn trace(&mut self, ray: &PathRay, kind: RayKind, parent: P::Id) -> Spectrum {
         let id = self.probe.ray(parent, ray, kind);
         let radiance = match self.reason_to_stop(ray) {
             Some(reason) => {
+                if P::RECORDS {
+                    self.report_limit(ray, reason, id);
+                }
                 self.probe.stop(id, reason, ray.throughput);
                 Spectrum::BLACK
             }
@@ -78,6 +92,8 @@ impl<'a, P: Probe> Walk<'a, P> {
             Some(StopReason::DepthLimit)
         } else if ray.depth > 0 && ray.throughput.max() * ray.siblings <= self.rules.min_contribution {
             Some(StopReason::ContributionBelowCutoff)
+        } else if P::RECORDS && self.probe.is_full() {
+            Some(StopReason::Cancelled)
         } else {
             None
         }
@@ -100,6 +116,9 @@ impl<'a, P: Probe> Walk<'a, P> {
         let arriving = self.arriving(&ray.media, ray.from, &ray.ray, hit.t);
         match crossing.boundary {
             Boundary::Passed => {
+                if P::RECORDS {
+                    self.report_passed(ray, &crossing, arriving, id);
+                }
                 let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
                 let child = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
                 return arriving * self.trace(&child, RayKind::Passing, id);
@@ -109,9 +128,17 @@ impl<'a, P: Probe> Walk<'a, P> {
         }
         let arriving = arriving * self.rules.attenuation(ray, hit.t);
         s.bsdf.dim(arriving);
-        let mut radiance = arriving * (s.emission + self.lamp(ray, &s)) + s.ambient(cx);
+        let emission = arriving * (s.emission + self.lamp(ray, &s));
+        let ambient = s.ambient(cx);
+        let mut radiance = emission + ambient;
+        let mut blurred_sky = Spectrum::BLACK;
         if self.rules.gloss_rays.is_none() {
-            radiance += s.blurred_sky(cx);
+            blurred_sky = s.blurred_sky(cx);
+            radiance += blurred_sky;
+        }
+        if P::RECORDS {
+            let parts = Parts { arrived: arriving, emission, ambient, blurred_sky };
+            self.report_hit(ray, (&s, &crossing), &parts, id);
         }
         self.probe.local(id, radiance);
         let radiance = self.lights(ray, &s, &crossing, (id, radiance));

@@ -23,6 +23,8 @@ struct Passage {
     share: Spectrum,
     /// What kept all of it.
     blocker: Option<Id<Object>>,
+    /// Why nothing arrives, if nothing does.
+    end: StopReason,
 }
 
 impl<P: Probe> Walk<'_, P> {
@@ -36,31 +38,46 @@ impl<P: Probe> Walk<'_, P> {
         sample: &LightSample,
         id: P::Id,
     ) -> Spectrum {
+        let path = self.shadow_path(parent, (s, crossing), light, weight, sample);
+        self.send_shadow(&path, light as u32, (sample.point, sample.weight), id)
+    }
+
+    /// The ray to a light.
+    pub(super) fn shadow_path(
+        &self,
+        parent: &PathRay,
+        (s, crossing): (&Shading, &Crossing),
+        light: usize,
+        weight: Spectrum,
+        sample: &LightSample,
+    ) -> PathRay {
         let ray = match sample.point {
             Some(point) => s.surface.spawn_to(point, parent.ray.time),
             None => s.surface.spawn(sample.wi, parent.ray.time),
         };
         let media = crossing.media(s.side_of(sample.wi));
-        let path = PathRay { media, ..parent.child((s.surface.p, ray), weight, LIGHT_BRANCH + light as u32) };
-        let shadow = self.probe.ray(id, &path, RayKind::Shadow);
+        PathRay { media, ..parent.child((s.surface.p, ray), weight, LIGHT_BRANCH + light as u32) }
+    }
+    /// Sends a shadow ray to a light at a point, or infinitely far away, which sends `unoccluded`; the light that arrives.
+    pub(super) fn send_shadow(
+        &mut self,
+        path: &PathRay,
+        light: u32,
+        (point, unoccluded): (Option<Point3>, Spectrum),
+        id: P::Id,
+    ) -> Spectrum {
+        let shadow = self.probe.ray(id, path, RayKind::Shadow);
         self.rays += 1;
         let passage = match self.rules.shadows.straight() {
-            Some(how) => self.passage(&path, sample.point, how, shadow),
-            None => self.free_passage(&path, shadow),
+            Some(how) => self.passage(path, point, how, shadow),
+            None => self.free_passage(path, shadow),
         };
         let visible = !passage.share.is_black();
-        let event = LightEvent {
-            light: light as u32,
-            point: sample.point,
-            unoccluded: sample.weight,
-            passed: passage.share,
-            visible,
-            blocker: passage.blocker,
-        };
-        self.probe.light(shadow, &event);
+        let (passed, blocker) = (passage.share, passage.blocker);
+        self.probe.light(shadow, &LightEvent { light, point, unoccluded, passed, visible, blocker });
         let (arriving, reason) = match visible {
-            true => (passage.share * sample.weight, StopReason::HitLight),
-            false => (Spectrum::BLACK, StopReason::LightOccluded),
+            true => (passed * unoccluded, StopReason::HitLight),
+            false => (Spectrum::BLACK, passage.end),
         };
         self.probe.local(shadow, arriving);
         self.probe.stop(shadow, reason, Spectrum::BLACK);
@@ -74,10 +91,11 @@ impl<P: Probe> Walk<'_, P> {
         let ray = &path.ray;
         if !cx.scene.occluded(cx, ray, self.probe, shadow) {
             let t = if ray.t_max.is_finite() { 1.0 } else { f32::INFINITY };
-            return Passage { share: self.arriving(&path.media, path.from, ray, t), blocker: None };
+            let share = self.arriving(&path.media, path.from, ray, t);
+            return Passage { share, blocker: None, end: StopReason::Absorbed };
         }
         let blocker = if P::RECORDS { cx.scene.blocker(cx, ray) } else { None };
-        Passage { share: Spectrum::BLACK, blocker }
+        Passage { share: Spectrum::BLACK, blocker, end: StopReason::LightOccluded }
     }
 
     /// The way to a light at `to`, or infinitely far away, through what is transparent.
@@ -89,9 +107,11 @@ impl<P: Probe> Walk<'_, P> {
         for _ in 0..MOST_PASSED {
             let Some(hit) = cx.scene.closest_in_the_way(cx, &ray, self.probe, shadow) else {
                 let t = if to.is_some() { 1.0 } else { f32::INFINITY };
-                return Passage { share: share * self.arriving(&bodies, from, &ray, t), blocker: None };
+                share *= self.arriving(&bodies, from, &ray, t);
+                return Passage { share, blocker: None, end: StopReason::Absorbed };
             };
             share *= self.arriving(&bodies, from, &ray, hit.t);
+            let is_absorbed = share.is_black();
             // Surfaces expect a unit direction.
             let unit = ray.d.length();
             let seen = Ray { d: ray.d / unit, ..ray };
@@ -107,7 +127,10 @@ impl<P: Probe> Walk<'_, P> {
                 Boundary::Own => share *= s.bsdf.straight(s.wo_local, how),
             }
             if share.is_black() {
-                return Passage { share, blocker: Some(s.object) };
+                return match is_absorbed {
+                    true => Passage { share, blocker: None, end: StopReason::Absorbed },
+                    false => Passage { share, blocker: Some(s.object), end: StopReason::LightOccluded },
+                };
             }
             bodies = crossing.behind;
             from = s.surface.p;
@@ -116,6 +139,6 @@ impl<P: Probe> Walk<'_, P> {
                 None => s.surface.spawn(ray.d, ray.time),
             };
         }
-        Passage { share: Spectrum::BLACK, blocker: None }
+        Passage { share: Spectrum::BLACK, blocker: None, end: StopReason::LightOccluded }
     }
 }
