@@ -13,6 +13,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Prepared,
     drive::{Antialias, Taken},
+    probe::{Clock, Detail},
     tree::{Find, Page, Subject, Surroundings},
 };
 
@@ -30,6 +31,8 @@ use which::Which;
 
 /// Nodes of all trees of a page together: other samples than those asked for are left out beyond.
 const PAGE_NODES: usize = 10_000;
+/// Rays of a page whose boxes are recorded.
+const PAGE_WALKS: u32 = 16;
 
 /// Shows the rays of a pixel sample as a tree.
 #[derive(clap::Args)]
@@ -53,6 +56,10 @@ pub(crate) struct Args {
     /// scene, film, light transport and distribution, or another scene.
     #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, help_heading = "Ray tree")]
     diff: Option<String>,
+    /// Records which boxes the first N rays are tested against, in order. The page has those of the first 16 rays.
+    #[arg(long, value_name = "N", value_parser = whole(0u32..=1_000_000), allow_negative_numbers = true)]
+    #[arg(default_value_t = 0, hide_default_value = true, help_heading = "Ray tree")]
+    walk: u32,
     /// The tree as JSON on stdout.
     #[arg(long, help_heading = "Ray tree")]
     json: bool,
@@ -93,7 +100,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
         return Ok(Exit::Failed);
     };
     let subject = Subject { name: scene, prepared };
-    let mut page = subject.page(chosen.pixel, &chosen.samples, args.around(&outputs));
+    let mut page = subject.page(chosen.pixel, &chosen.samples, args.around(&outputs), args.detail(&outputs));
     if let Some(other) = other {
         let loaded = load(&other.scene.scene, &args.wishes(&other));
         report::print(&other.scene.scene, &loaded.imported, &args.talk);
@@ -103,7 +110,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
         let twin = Subject { name: &other.scene.scene, prepared };
         compare::add(&mut page, &subject, &twin, args.diff.as_deref().unwrap_or_default())?;
     }
-    let shown = output::only(&page, chosen.samples.len());
+    let shown = output::only(&page, chosen.samples.len(), args.walk);
     let written = output::write(&outputs, &page, &shown, &args.talk);
     if args.json {
         emit(&(shown.json()? + "\n"))?;
@@ -120,6 +127,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
 impl Args {
     fn wishes(&self, options: &SampleOptions) -> durer::Options {
         durer::Options { threads: self.threads.map(|n| n as usize), ..options.wishes() }
+    }
+
+    /// What is recorded beside what is always.
+    fn detail(&self, outputs: &[Output]) -> Detail {
+        let page = outputs.iter().any(|o| o.format.is_page());
+        Detail {
+            walks: self.walk.max(if page { PAGE_WALKS } else { 0 }) as usize,
+            clock: if page { Clock::On } else { Clock::Off },
+            ..Detail::default()
+        }
     }
 
     /// How much of the scene the files want to show.

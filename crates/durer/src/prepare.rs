@@ -39,7 +39,7 @@ pub struct Prepared {
     pub integrator_name: String,
     /// What the integrator was told: its parameters with their values.
     pub rules: BTreeMap<String, serde_json::Value>,
-    /// Number and registered word of each material, of [`Scene::materials`].
+    /// Name of each of [`Scene::materials`], or its registered word and number.
     pub material_names: Vec<String>,
     /// Samples, seed, threads.
     pub settings: Settings,
@@ -195,7 +195,7 @@ fn registered_word(kind: &str) -> String {
     entry.map_or_else(|| compile::default_integrator().kind, |e| e.schema.name.to_owned())
 }
 
-/// The integrator's parameters with their values.
+/// The integrator's parameters with their values, without those that have none.
 fn rules(node: &Node) -> BTreeMap<String, serde_json::Value> {
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     let rule = |spec: &ParamSpec| {
@@ -209,11 +209,11 @@ fn rules(node: &Node) -> BTreeMap<String, serde_json::Value> {
             (_, ParamDefault::Float(v)) => short(v),
             (_, ParamDefault::Bool(v)) => v.into(),
             (_, ParamDefault::Text(v)) => v.into(),
-            _ => serde_json::Value::Null,
+            _ => return None,
         };
-        (rule_name(spec.name), value)
+        Some((rule_name(spec.name), value))
     };
-    takes.iter().map(rule).collect()
+    takes.iter().filter_map(rule).collect()
 }
 
 /// A number with no more digits than it has bits.
@@ -235,11 +235,11 @@ fn rule_name(parameter: &str) -> String {
     apart.map_or_else(|| parameter.to_owned(), |(a, b)| format!("{a}_{b}"))
 }
 
-/// Name or number, and kind, of every material.
+/// Name of every material, or its kind and number.
 fn material_names(desc: &SceneDesc) -> Vec<String> {
     let name = |(index, material): (usize, &durer_scene::NamedNode)| match material.name.as_str() {
         "" => format!("{} {index}", material.node.kind),
-        name => format!("{name} ({})", material.node.kind),
+        name => name.to_owned(),
     };
     desc.materials.iter().enumerate().map(name).collect()
 }

@@ -1,5 +1,8 @@
 //! `--diff`: the same samples under other options.
-use durer::tree::{Comparison, Other, Page, Subject, Tree};
+use durer::{
+    probe::Detail,
+    tree::{Comparison, Other, Page, Subject, Tree},
+};
 
 use crate::exit::WrongUsage;
 
@@ -34,7 +37,8 @@ pub(super) fn add(
     } else {
         "this sample"
     };
-    let others: Vec<Tree> = page.trees.iter().map(|t| twin.tree(pixel, &samples, t.sample)).collect();
+    let others: Vec<Tree> =
+        page.trees.iter().map(|t| twin.tree(pixel, &samples, t.sample, Detail::default())).collect();
     for (tree, other) in page.trees.iter_mut().zip(&others) {
         tree.diff = Some(Comparison::new(tree, other, options, whole));
     }

@@ -40,9 +40,16 @@ pub(super) fn outputs(asked: &[PathBuf]) -> anyhow::Result<Vec<Output>> {
     Ok(outputs)
 }
 
-/// The page with its first trees only: those that were asked for.
-pub(super) fn only(page: &Page, trees: usize) -> Page {
+/// The page with its first trees only: those that were asked for, and with what was asked of them. Times, which are never
+/// the same twice, are for the page alone.
+pub(super) fn only(page: &Page, trees: usize, walks: u32) -> Page {
     let mut only = page.clone();
+    for node in only.trees.iter_mut().flat_map(|t| &mut t.nodes) {
+        node.ns = None;
+        if node.id >= walks as usize {
+            node.walk.clear();
+        }
+    }
     only.trees.truncate(trees);
     if let Some(other) = &mut only.other {
         other.trees.truncate(trees);

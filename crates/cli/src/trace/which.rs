@@ -19,7 +19,10 @@ impl Which {
             "brightest" => Ok(Self::Brightest),
             "nan" => Ok(Self::Nan),
             number => number.trim().parse().map(Self::Index).map_err(|_| {
-                "expected a whole number from 0, or one of the words all, brightest, nan".to_owned()
+                format!(
+                    "expected a whole number from 0 to {}, or one of the words all, brightest, nan",
+                    u32::MAX
+                )
             }),
         }
     }

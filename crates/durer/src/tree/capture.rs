@@ -6,7 +6,7 @@ use crate::{
     drive::{Antialias, Gather, Taken},
     film::Tile,
     math::Point3,
-    probe::{TreeHit, TreeNode},
+    probe::{Detail, TreeHit, TreeNode},
     spectrum::{Basis, Spectrum},
 };
 
@@ -40,14 +40,14 @@ pub enum Surroundings {
 }
 
 impl Subject<'_> {
-    /// The trees of some samples of a pixel, and what belongs to them.
-    pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings) -> Page {
+    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them.
+    pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings, detail: Detail) -> Page {
         let samples = self.samples(pixel);
-        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s)).collect();
+        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s, detail)).collect();
         if let Surroundings::SceneAndSamples(most) = around {
             let mut nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
             for sample in (0..samples.len() as u32).filter(|s| !chosen.contains(s)) {
-                let tree = self.tree(pixel, &samples, sample);
+                let tree = self.tree(pixel, &samples, sample, Detail::default());
                 nodes += tree.nodes.len();
                 if nodes > most {
                     break;
@@ -89,9 +89,9 @@ impl Subject<'_> {
         self.prepared.job().samples_of(pixel, Gather::Rays)
     }
 
-    /// The document of one of them; `samples` are all of the pixel.
-    pub fn tree(&self, pixel: [u32; 2], samples: &[Taken], sample: u32) -> Tree {
-        let (recorded, value) = self.prepared.job().record(pixel, sample);
+    /// The document of one sample; `samples` are all of the pixel.
+    pub fn tree(&self, pixel: [u32; 2], samples: &[Taken], sample: u32, detail: Detail) -> Tree {
+        let (recorded, value) = self.prepared.job().record_in(pixel, sample, detail);
         let taken = samples.get(sample as usize);
         let view = &self.prepared.scene.view;
         let nodes: Vec<Node> =

@@ -92,7 +92,7 @@ pub struct Node {
     pub instance: Option<u32>,
     /// Which triangle or part of the object, as the kernel counts them.
     pub primitive: Option<u32>,
-    /// Material of the object: its number and kind.
+    /// Material of the object: its name, or kind and number.
     pub material: Option<String>,
     /// Unit shading normal, on the outside.
     pub normal: Option<Direction>,

@@ -15,6 +15,8 @@ mod material;
 mod number;
 mod page;
 mod picture;
+#[cfg(test)]
+mod schema;
 mod svg;
 mod table;
 

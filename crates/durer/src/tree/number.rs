@@ -38,6 +38,8 @@ impl Metres {
     /// whose origin is nearer: digits beyond mean nothing.
     pub fn short(exact: f64, rounded: f32) -> Self {
         let grain = f64::from(rounded.abs().next_up() - rounded.abs()) / 4.0;
+        // Moving the origin rounds too.
+        let grain = grain.max(exact.abs() * 4.0 * f64::EPSILON);
         if !exact.is_finite() || grain <= 0.0 || !grain.is_finite() {
             return Self(exact);
         }
@@ -86,10 +88,10 @@ mod tests {
     #[test]
     fn coordinates_keep_the_digits_that_mean_something() {
         let short = |exact, rounded| Metres::short(exact, rounded).0;
-        assert_eq!(short(f64::from(0.3f32), 0.3), 0.300_000_01);
-        assert_eq!(short(f64::from(0.3f32) + 1e7, 0.3), 10_000_000.300_000_01);
+        assert_eq!(short(f64::from(0.3f32), 0.3), 0.300_000_012);
+        assert_eq!(short(f64::from(0.3f32) + 1e7, 0.3), 10_000_000.300_000_012);
         assert!((short(1.0 / 3.0, 1.0 / 3.0) - 1.0 / 3.0).abs() < 4e-9);
-        assert_eq!(short(5.0, 0.0), 5.0);
+        assert_eq!((short(5.0, 0.0), short(-5.399_999_999_999_999_5, 0.0)), (5.0, -5.4));
         assert!(short(f64::NAN, 1.0).is_nan());
     }
 }

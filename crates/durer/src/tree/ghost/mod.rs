@@ -77,7 +77,7 @@ pub struct GhostObject {
     pub name: String,
     /// The names of all copies, if there are several.
     pub names: Vec<String>,
-    /// Number and kind of the material.
+    /// The material: its name, or kind and number.
     pub material: String,
     /// Its colour, more or less: linear RGB.
     pub color: Rgb,

@@ -183,7 +183,7 @@ fn circle(text: &mut String, node: &Node, [x, y]: [f64; 2], number: usize) {
         for part in wrapped(&words, 11) {
             let _ = writeln!(
                 text,
-                "<text x=\"{}\" y=\"{}\" font-size=\"8\" fill=\"{color}\" text-anchor=\"middle\">{}</text>",
+                "<text x=\"{}\" y=\"{}\" font-size=\"8\" fill=\"{color}\" stroke=\"#fff\" stroke-width=\"2.5\" paint-order=\"stroke\" text-anchor=\"middle\">{}</text>",
                 cut(x),
                 cut(line),
                 escaped(&part)
