@@ -86,3 +86,34 @@ fn trees_of_distributed_rays_are_the_pixel_too() {
         assert!(glossy > 500, "{glossy}");
     }
 }
+
+#[test]
+fn what_was_cut_off_is_within_its_bound() {
+    let of = |depth| {
+        let options = Options {
+            width: Some(48),
+            samples: Some(1),
+            max_depth: Some(depth),
+            min_contribution: Some(0.0),
+            ..Options::default()
+        };
+        prepared(builtin::find("glass-plate").expect("built in").import(), &options)
+    };
+    let (cut, whole) = (of(2), of(9));
+    let map = cut.job().killed(&Default::default());
+    let mut lacking = 0;
+    for (i, share) in map.shares.iter().enumerate() {
+        let pixel = [i as u32 % 48, i as u32 / 48];
+        let (tree, rgb) = whole.job().record(pixel, 0);
+        let (some, less) = cut.job().record(pixel, 0);
+        assert_eq!(*share, Basis::Rgb.to_rgb(some.killed()));
+        assert!(map.max_radiance >= some.max_radiance());
+        for ((more, less), share) in rgb.iter().zip(less).zip(share) {
+            let bound = share * tree.max_radiance();
+            assert!(more - less <= bound * 1.0001 + 1e-6, "pixel {pixel:?}: {more} - {less} > {bound}");
+            lacking += usize::from(more - less > 1e-3);
+        }
+    }
+    assert!(lacking > 100, "{lacking} pixels lack something");
+    assert!(of(40).job().record([0, 0], 0).0.killed().is_black(), "the sky beside the plates");
+}

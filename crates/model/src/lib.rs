@@ -34,31 +34,38 @@ pub struct ShadeCx<'a> {
 
 impl ShadeCx<'_> {
     /// The colour of `input` at a point.
+    #[inline]
     pub fn color(&self, input: ColorInput, at: &TextureAt) -> Color {
         match input {
             ColorInput::Constant(color) => color,
             ColorInput::Texture(index) => {
                 let color = self.textures[index as usize].color(self, at);
-                self.note(index, at, Looked::Color(color));
+                if let Some(log) = self.log {
+                    note(log, index, at, Looked::Color(color));
+                }
                 color
             }
         }
     }
     /// The number of `input` at a point.
+    #[inline]
     pub fn float(&self, input: FloatInput, at: &TextureAt) -> f32 {
         match input {
             FloatInput::Constant(value) => value,
             FloatInput::Texture(index) => {
                 let value = self.textures[index as usize].float(self, at);
-                self.note(index, at, Looked::Number(value));
+                if let Some(log) = self.log {
+                    note(log, index, at, Looked::Number(value));
+                }
                 value
             }
         }
     }
-    #[inline]
-    fn note(&self, texture: u32, at: &TextureAt, value: Looked) {
-        if let Some(log) = self.log {
-            log.borrow_mut().push(TextureLookup { texture, uv: at.uv, value });
-        }
-    }
+}
+
+/// PERF: apart, so that those who do not ask are short enough to be inlined (docs/benchmarks.md, what recording costs).
+#[cold]
+#[inline(never)]
+fn note(log: &TextureLog, texture: u32, at: &TextureAt, value: Looked) {
+    log.borrow_mut().push(TextureLookup { texture, uv: at.uv, value });
 }
