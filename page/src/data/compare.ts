@@ -1,7 +1,7 @@
 // Two trees of the same sample side by side: which rays are new, gone or changed.
 import { luminance } from "./color";
 import type { Grove } from "./forest";
-import type { Node, Rgb } from "./types";
+import type { Diff, Node, Rgb } from "./types";
 
 export type Fate = "same" | "changed" | "added" | "removed";
 
@@ -18,17 +18,32 @@ export interface Pair {
   change: number;
 }
 
-/** Aligns from the roots: children are paired by kind, light and their place among their like. */
-export function compare(a: Grove, b: Grove): Pair[] {
+/** Aligns from the roots. If the program has said which rays belong together and what differs, that counts; else children
+ * are paired by kind, light and their place among their like. */
+export function compare(a: Grove, b: Grove, diff?: Diff | null): Pair[] {
   const pairs: Pair[] = [];
+  const told = diff?.pairs ? new Map(diff.pairs) : null;
+  const keys = new Map((diff?.changed ?? []).map((change) => [change.before, change.keys]));
+  const [removed, added] = [new Set(diff?.removed), new Set(diff?.added)];
   const open: [number, number][] = [[a.nodes.length ? 0 : -1, b.nodes.length ? 0 : -1]];
   while (open.length > 0) {
     const [x, y] = open.pop()!;
-    pairs.push(pair(a, b, x, y));
-    const below = align(x < 0 ? [] : a.children[x]!, y < 0 ? [] : b.children[y]!, a, b);
+    const found = pair(a, b, x, y);
+    const differs = keys.get(x) ?? [];
+    // A ray that the other way gives up before it is traced has a partner, but is gone.
+    const fate = removed.has(x) ? "removed" : added.has(y) ? "added" : differs.length > 0 ? "changed" : "same";
+    pairs.push(told && x >= 0 && y >= 0 ? { ...found, differs, fate } : found);
+    const [xs, ys] = [x < 0 ? [] : a.children[x]!, y < 0 ? [] : b.children[y]!];
+    const below = told ? paired(xs, ys, told) : align(xs, ys, a, b);
     for (let i = below.length - 1; i >= 0; i--) open.push(below[i]!);
   }
   return pairs;
+}
+
+function paired(xs: number[], ys: number[], told: Map<number, number>): [number, number][] {
+  const taken = new Set(xs.map((x) => told.get(x)));
+  const both = xs.map((x): [number, number] => [x, told.get(x) ?? -1]);
+  return [...both, ...ys.filter((y) => !taken.has(y)).map((y): [number, number] => [-1, y])];
 }
 
 function align(xs: number[], ys: number[], a: Grove, b: Grove): [number, number][] {

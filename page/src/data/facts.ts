@@ -77,8 +77,8 @@ function light(g: Group, node: Node): Fact[] {
 }
 
 function optics(g: Group, node: Node): Fact[] {
-  const bodies = (list: { object: string; priority: number; ior: number }[]): string =>
-    list.length === 0 ? "none" : list.map((body) => `${body.object} (n ${exact(body.ior)}, priority ${body.priority})`).join(", ");
+  const bodies = (list: { object: string; priority: number; ior: number }[] | null | undefined): string =>
+    !list?.length ? "none" : list.map((body) => `${body.object} (n ${exact(body.ior)}, priority ${body.priority})`).join(", ");
   if (node.media) {
     g.value("n₁", node.media.n1).value("n₂", node.media.n2);
     g.value("in before", bodies(node.media.before)).value("in after", bodies(node.media.after));

@@ -41,7 +41,7 @@ export async function load(text: string): Promise<Page> {
 export function completed(page: Page): Page {
   const trees = page.trees.filter((tree) => tree.nodes.length > 0).map(tree);
   const other = page.other ? { ...page.other, trees: page.other.trees.filter((t) => t.nodes.length > 0).map(tree) } : null;
-  const objects = page.scene.objects.map((object) => ({ ...object, mesh: object.mesh ?? null }));
+  const objects = (page.scene.objects ?? []).map((object) => ({ ...object, mesh: object.mesh ?? null }));
   return {
     ...page, trees, other, values: page.values ?? [], dims: page.dims ?? [], picture: page.picture ?? null,
     mean: page.mean ?? trees[0]!.rgb, scene: { ...page.scene, objects, lights: page.scene.lights ?? [] },

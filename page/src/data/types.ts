@@ -86,8 +86,8 @@ export interface Node {
   triangle?: [Vec3, Vec3, Vec3] | null;
   cos?: number | null;
   time?: number | null;
-  media?: { before: Body[]; after: Body[]; n1: number; n2: number } | null;
-  fresnel?: { reflect: number; transmit: number; critical_angle: number | null; tir: boolean } | null;
+  media?: { before?: Body[] | null; after?: Body[] | null; n1: number; n2: number } | null;
+  fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean } | null;
   lobes?: Lobe[] | null;
   drawn?: Drawn | null;
   arrived?: Rgb | null;
@@ -99,6 +99,16 @@ export interface Node {
   limit?: { value: number; threshold: number } | null;
   ns?: number | null;
   walk?: WalkedBox[] | null;
+}
+
+/** What another way of tracing changes in a sample, as the program found it. */
+export interface Diff {
+  options: string;
+  summary: string;
+  removed?: number[] | null;
+  added?: number[] | null;
+  changed?: { before: number; after: number; keys: string[] }[] | null;
+  pairs?: [number, number][] | null;
 }
 
 /** The rays of one pixel sample, parents before children. */
@@ -122,6 +132,7 @@ export interface Tree {
   rules?: Record<string, unknown> | null;
   killed?: Rgb | null;
   max_radiance?: number | null;
+  diff?: Diff | null;
 }
 
 export interface PackedMesh {
@@ -139,6 +150,8 @@ export interface SceneObject {
   emits: boolean;
   mesh: PackedMesh | null;
   copies?: number[][] | null;
+  /** One for each copy, where they differ. */
+  names?: string[] | null;
   sphere?: { center: Vec3; radius: number } | null;
   plane?: boolean | null;
 }

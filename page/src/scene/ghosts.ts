@@ -66,7 +66,7 @@ export class Ghosts {
     const triangles = (geometry.index?.count ?? geometry.getAttribute("position").count) / 3;
     const edged = !object.sphere && triangles <= MOST_WITH_EDGES ? new EdgesGeometry(geometry, 28) : null;
     const copies = object.copies?.length ? object.copies : [null];
-    for (const copy of copies.slice(0, 500)) {
+    for (const [index, copy] of copies.slice(0, 500).entries()) {
       const mesh = new Mesh(geometry, material);
       const parts: (Mesh | LineSegments)[] = [mesh];
       if (edged) parts.push(new LineSegments(edged, this.edge()));
@@ -76,7 +76,7 @@ export class Ghosts {
         this.group.add(part);
       }
       mesh.renderOrder = 1;
-      this.meshes.push({ name: object.name, mesh });
+      this.meshes.push({ name: object.names?.[index] ?? object.name, mesh });
     }
   }
 

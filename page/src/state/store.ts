@@ -56,7 +56,7 @@ export function createStore(page: Page) {
     const same = page.other.trees.findIndex((tree) => tree.sample === sample);
     return same < 0 ? (treeIndex.value === 0 ? otherOf(0) : null) : otherOf(same);
   });
-  const pairs = computed<Pair[]>(() => (rival.value ? compare(g.value, rival.value) : []));
+  const pairs = computed<Pair[]>(() => (rival.value ? compare(g.value, rival.value, g.value.tree.diff) : []));
 
   function chooseTree(index: number): void {
     if (!page.trees[index] || index === treeIndex.peek()) return;

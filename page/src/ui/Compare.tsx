@@ -22,10 +22,11 @@ export function Compare({ store }: { store: Store }): JSX.Element {
   const list = changes(pairs, a, b).filter((pair) => only.value === "all" || pair.fate === only.value);
   const { share } = verdict(a, b);
   const more = share > 0 ? "adds" : "removes";
+  const summary = a.tree.diff?.summary;
   return (
     <>
-      <p class="lead">With <code>{store.page.other.options}</code> this sample {share === 0
-        ? "keeps its value." : <>changes: it {more} <b>{percent(Math.abs(share))}</b> of it.</>}</p>
+      <p class="lead">{summary ? <>With <code>{store.page.other.options}</code>: {summary}.</> : <>With <code>{store.page.other.options}</code> this sample {share === 0
+        ? "keeps its value." : <>changes: it {more} <b>{percent(Math.abs(share))}</b> of it.</>}</>}</p>
       <table class="versus"><tbody>
         <tr><th scope="row">as traced</th><td><Swatch rgb={a.tree.rgb} /> {rgb(a.tree.rgb)}</td><td class="quiet">{a.nodes.length} rays</td></tr>
         <tr><th scope="row">the other way</th><td><Swatch rgb={b.tree.rgb} /> {rgb(b.tree.rgb)}</td><td class="quiet">{b.nodes.length} rays</td></tr>
