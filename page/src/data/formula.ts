@@ -2,7 +2,7 @@
 import { add, isBlack, times } from "./color";
 import type { Grove } from "./forest";
 import { asksLight } from "./kinds";
-import { degrees, num, triple, tuple } from "./number";
+import { degrees, num, subscript, triple, tuple } from "./number";
 import { angleBetween, facing, fresnel, mirrored, snell } from "./optics";
 import { distance } from "./vector";
 import type { Node, Rgb, Vec3 } from "./types";
@@ -265,7 +265,7 @@ function highlight(g: Grove, node: Node): Formula | null {
   const half = [0, 1, 2].map((i) => node.direction[i]! - at.v[i]!) as Vec3;
   const cosHalf = Math.max(0, Math.cos(angleBetween(half, at.n)));
   return {
-    title: `Highlight at N${g.hits[parent.id] ?? ""}`,
+    title: `Highlight at N${subscript(g.hits[parent.id] ?? 0)}`,
     lines: [
       [sym("R · L"), say(" = "), val(num(cos)), say(",  "), sym("(R · L)ⁿ"), say(" with "), sym("n"), say(" = "), val(num(exponent)),
         say(" is "), val(num(cos ** exponent))],

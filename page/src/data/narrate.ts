@@ -2,7 +2,7 @@
 import { isBlack, times } from "./color";
 import type { Grove } from "./forest";
 import { asksLight, lookOf, stopOf } from "./kinds";
-import { num, percent, share, triple } from "./number";
+import { num, percent, share, subscript, triple } from "./number";
 import type { Step } from "./playback";
 import type { Node } from "./types";
 
@@ -87,7 +87,7 @@ function shaded(g: Grove, node: Node): string {
   const below = g.children[node.id]!.length;
   const follow = below === 0 ? "nothing follows" : below === 1 ? "one ray follows" : `${below} rays follow`;
   const stop = node.stop && below === 0 ? ` ${stopOf(node.stop).says}` : "";
-  const place = `At N${g.hits[node.id] || ""}`;
+  const place = `At ${hitName(g, node.id)}`;
   if (isBlack(node.local)) return `${place} the surface itself adds no light; ${follow}.${stop}`;
   return `${place} the ambient term and emission add ${triple(node.local, 3)}; ${follow}.${stop}`;
 }
@@ -95,11 +95,16 @@ function shaded(g: Grove, node: Node): string {
 function returned(g: Grove, node: Node): string {
   const name = g.letters[node.id] ?? "";
   if (node.parent === null) return `The eye ray returns ${triple(node.result, 3)}: the value of this sample.`;
-  const parent = `N${g.hits[node.parent] || ""}`;
+  const parent = hitName(g, node.parent);
   const added = times(node.weight, node.result);
   if (isBlack(added)) return `${name} brings ${parent} nothing.`;
   const part = share(times(node.throughput, node.result), g.tree.rgb);
   return `${name} returns ${triple(node.result, 3)}; times its weight it adds ${triple(added, 3)} to ${parent}: ${percent(part)} of the sample.`;
+}
+
+/** N with the hit's number, as on the slide. */
+function hitName(g: Grove, id: number): string {
+  return g.hits[id] ? `N${subscript(g.hits[id]!)}` : "the surface";
 }
 
 function capital(text: string): string {

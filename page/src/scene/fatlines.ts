@@ -127,13 +127,15 @@ export class FatLines {
     uOpacity: { value: 1 },
     uWiden: { value: 0 },
   };
+  private readonly usualCasing: number;
   private readonly body = new InstancedBufferGeometry();
   private readonly heads = new InstancedBufferGeometry();
   private alphas = new InstancedBufferAttribute(new Float32Array(0), 1);
   private colors = new InstancedBufferAttribute(new Float32Array(0), 3);
 
   constructor(options: { casing?: number; widen?: number; opacity?: number; onTop?: boolean; arrows?: boolean; rank?: number } = {}) {
-    this.uniforms.uCasing.value = options.casing ?? 1;
+    this.usualCasing = options.casing ?? 1;
+    this.uniforms.uCasing.value = this.usualCasing;
     this.uniforms.uWiden.value = options.widen ?? 0;
     this.uniforms.uOpacity.value = options.opacity ?? 1;
     this.body.setAttribute("position", new BufferAttribute(new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
@@ -194,6 +196,11 @@ export class FatLines {
 
   size(width: number, height: number): void {
     this.uniforms.uSize.value.set(width, height);
+  }
+
+  /** Without casing. */
+  lean(on: boolean): void {
+    this.uniforms.uCasing.value = on ? 0 : this.usualCasing;
   }
 
   casing(color: Color): void {

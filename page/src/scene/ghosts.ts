@@ -38,7 +38,7 @@ void main() {
   if (dot(uCut.xyz, vPlace) > uCut.w) discard;
   float facing = abs(dot(normalize(vNormal), normalize(vWay)));
   float rim = pow(1.0 - facing, 2.2);
-  vec3 ground = mix(vec3(0.42), vec3(0.86), uDark);
+  vec3 ground = mix(vec3(0.42), vec3(0.62), uDark);
   vec3 color = mix(uColor, ground, 0.35 + 0.35 * rim) * mix(0.82 + 0.18 * facing, 1.0, uDark);
   gl_FragColor = vec4(color, clamp(uOpacity * (0.34 + 1.5 * rim), 0.0, 1.0));
 }`;

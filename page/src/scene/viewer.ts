@@ -18,6 +18,9 @@ import { Space } from "./space";
 
 export type Look = "eye" | "all" | "hit" | "plane" | "machine";
 
+/** With more rays than these lines do without casing: it would cover what is behind, and costs time. */
+const MANY = 3000;
+
 /** Pixels of the circle around a marked hit. */
 const MARK_RADIUS = 74;
 
@@ -133,6 +136,7 @@ export class Viewer {
 
   private rebuild(): void {
     const { store } = this;
+    this.rays.lean(store.g.value.nodes.length > MANY);
     const style = { palette: store.palette.value, dark: store.dark.value };
     const comparing = store.tab.value === "compare" && store.rival.value !== null;
     const ink = comparing ? fateInk(store.pairs.value) : undefined;
@@ -152,7 +156,7 @@ export class Viewer {
     const chosen = selected.value;
     const on = path.value;
     const few = g.value.nodes.length < 3;
-    const rest = machine.value ? 0.12 : g.value.nodes.length > 3000 ? 0.3 : 0.62;
+    const rest = machine.value ? 0.12 : g.value.nodes.length > MANY ? 0.3 : 0.62;
     this.rays.fade((i) => (few || on.has(this.drawn[i]!.node) || g.value.nodes[this.drawn[i]!.node]!.parent === chosen ? 1 : rest));
     const accent: [number, number, number] = dark.value ? [1, 0.84, 0.35] : [1, 0.72, 0.12];
     const glowing = this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);

@@ -76,8 +76,8 @@ export function moveSelection(store: Store, key: string): boolean {
 function keeps(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.matches("select, textarea, input:not([type=range]):not([type=checkbox])")) return true;
-  const moves = /^(Arrow|Home|End|Page|Enter| )/.test(key);
-  return moves && target.matches("input, button, a, summary, [role=tab], [role=slider], [data-keys]");
+  if ((key === "Enter" || key === " ") && target.matches("input, button, a, summary")) return true;
+  return /^(Arrow|Home|End|Page)/.test(key) && target.matches("input, [role=tab], [data-keys]");
 }
 
 export function listen(store: Store, viewer: () => Viewer | null): void {

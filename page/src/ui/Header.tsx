@@ -11,7 +11,7 @@ export function Header({ store }: { store: Store }): JSX.Element {
     <header class="header">
       <h1>{store.page.scene.name || tree.scene}</h1>
       <p class="facts">
-        <span>pixel {tuple(tree.pixel, 6)}</span>
+        <span><span class="wide-only">pixel </span>{tuple(tree.pixel, 6)}</span>
         <span class="wide-only">{tree.integrator}</span>
         <span class="wide-only">{count(tree.nodes.length)} rays</span>
         <span class="value"><Swatch rgb={tree.rgb} /><span class="wide-only">{tree.rgb.map((x) => num(x, 3)).join("  ")}</span></span>

@@ -63,7 +63,7 @@ function Depths({ s }: { s: Statistics }): JSX.Element {
   return (
     <table class="numbers"><tbody>
       {s.depths.map((d) => (
-        <tr key={d.depth}><th scope="row">{d.depth}</th><td class="wide"><Bar share={d.light / most} /></td><td>{percent(s.value > 0 ? d.light / s.value : 0)}</td><td class="quiet">{count(d.rays)} rays</td></tr>
+        <tr key={d.depth}><th scope="row">{d.depth}</th><td class="wide"><Bar share={d.light / most} /></td><td>{percent(s.value > 0 ? d.light / s.value : 0)}</td><td class="quiet">{count(d.rays)} {d.rays === 1 ? "ray" : "rays"}</td></tr>
       ))}
     </tbody></table>
   );
