@@ -15,6 +15,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("durer-io", &["durer-core", "durer-scene"]),
     ("durer", &["durer-core", "durer-accel", "durer-scene", "durer-model", "durer-render", "durer-io"]),
     ("durer-cli", &["durer"]),
+    ("durer-page", &[]),
     ("durer-testkit", &[]),
     ("durer-tests", &["durer"]),
     ("durer-benches", &["durer"]),
