@@ -14,7 +14,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("durer-render", &["durer-core", "durer-scene", "durer-model", "durer-accel"]),
     ("durer-io", &["durer-core", "durer-scene"]),
     ("durer", &["durer-core", "durer-accel", "durer-scene", "durer-model", "durer-render", "durer-io"]),
-    ("durer-cli", &["durer"]),
+    ("durer-cli", &["durer", "durer-page"]),
     ("durer-page", &[]),
     ("durer-testkit", &[]),
     ("durer-tests", &["durer"]),

@@ -32,6 +32,9 @@ pub(super) fn outputs(asked: &[PathBuf]) -> anyhow::Result<Vec<Output>> {
         }
         let format = Format::of(path).map_err(WrongUsage)?;
         check_writable(path)?;
+        if format == Format::Html && !durer_page::is_built() {
+            return Err(anyhow!("{}: {}", path.display(), durer_page::NotBuilt));
+        }
         if outputs.iter().any(|o| o.path == *path) {
             return Err(WrongUsage(format!("{}: is named twice as an output", path.display())).into());
         }
@@ -77,18 +80,11 @@ pub(super) fn write(outputs: &[Output], page: &Page, shown: &Page, talk: &TalkOp
 fn bytes(format: Format, page: &Page) -> anyhow::Result<Vec<u8>> {
     let bytes = format.write(page).map_err(|e| anyhow!(e))?;
     match format {
-        Format::Html => html(&bytes),
+        Format::Html => Ok(durer_page::html(&bytes)?.into_bytes()),
         _ => Ok(bytes),
     }
 }
 
 fn store(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     fs::write(path, bytes).context("cannot be written")
-}
-
-/// The page around its data.
-fn html(_data: &[u8]) -> anyhow::Result<Vec<u8>> {
-    anyhow::bail!(
-        "this durer was built without its page\n  help: run `cargo xtask page`, then build durer again"
-    )
 }

@@ -69,8 +69,11 @@ fn the_deepest_sample_is_opened() {
     let place = Place::new();
     let ran = place.done("trace mirrors --width 24 --spp 1 --find deepest --json --threads 2");
     let tree = ran.json();
-    let given_up = ["depth-limit", "contribution-below-cutoff", "light-behind-surface"];
-    let traced = |n: &&Value| !given_up.contains(&n["stop"].as_str().unwrap_or_default());
+    let given_up = ["depth-limit", "contribution-below-cutoff"];
+    let traced = |n: &&Value| {
+        // Rays to lights are no bounces.
+        n["kind"] != "shadow" && !given_up.contains(&n["stop"].as_str().unwrap_or_default())
+    };
     let depth = tree["nodes"].as_array().expect("nodes").iter().filter(traced);
     let depth = depth.map(|n| n["depth"].as_u64().expect("a number")).max().expect("a node");
     assert!(ran.stderr.contains(&format!(": {depth} bounces")), "{depth}: {}", ran.stderr);
@@ -127,4 +130,22 @@ fn files_that_cannot_be_written_are_told_before_the_work() {
     let ran = place.run(&format!("{WORDS} --pixel 3,3 -o ."));
     assert_eq!(ran.code, 1);
     assert!(ran.stderr.contains("is a folder: name a file in it"), "{}", ran.stderr);
+}
+
+#[test]
+fn the_page_is_written_or_it_is_said_what_is_missing() {
+    let place = Place::new();
+    let ran = place.run(&format!("{WORDS} --pixel 37,20 -o tree.html"));
+    let written = std::fs::read_to_string(place.path("tree.html"));
+    if ran.code == 1 {
+        assert!(ran.stderr.contains("cargo xtask page") && ran.stdout.is_empty(), "{}", ran.stderr);
+        assert!(written.is_err());
+        return;
+    }
+    let html = written.expect("a page");
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    // What gzip's first bytes are in base64.
+    let (_, data) = html.split_once("id=\"durer-data\"").expect("the element of the data");
+    assert!(data.split_once('>').is_some_and(|(_, data)| data.trim_start().starts_with("H4sI")));
+    assert!(html.len() < 2_000_000, "{}", html.len());
 }
