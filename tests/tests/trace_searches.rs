@@ -32,7 +32,7 @@ const BEAD: &str = "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolutio
     AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [90 90 90]\n\
     Shape \"polygon\" \"point3 P\" [-7.3 -3.1 5  -7.3 3.2 5  -2.4 3.2 5  -2.4 -3.1 5] AttributeEnd\n\
     AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [60 60 60]\n\
-    Translate 3.5 1.5 5 Shape \"sphere\" \"float radius\" 0.14 AttributeEnd\n";
+    Translate 3.5 1.5 5 Shape \"sphere\" \"float radius\" 0.25 AttributeEnd\n";
 
 #[test]
 fn a_firefly_is_found_beside_a_brighter_panel() {

@@ -78,7 +78,7 @@ impl Page {
         }
     }
 
-    /// The page's data as JSON, in the compact form: without what is null or an empty list.
+    /// The page's data as JSON, in the compact form: without what is null.
     ///
     /// # Errors
     /// None that data of ours leads to; those of the JSON writer.
@@ -148,19 +148,9 @@ fn pack(value: &Value) -> serde_json::Result<Vec<u8>> {
 }
 
 /// Details that a tree can do without.
-const DETAILS: [&str; 11] = [
-    "walk",
-    "random",
-    "sampler",
-    "textures",
-    "lobes",
-    "triangle",
-    "barycentric",
-    "ns",
-    "uv",
-    "ambient",
-    "emission",
-];
+const DETAILS: [&str; 8] = ["walk", "sampler", "triangle", "barycentric", "ns", "uv", "ambient", "emission"];
+/// The same of lists, which become empty.
+const LISTS: [&str; 3] = ["random", "textures", "lobes"];
 /// Significant digits of numbers of such a tree.
 const DIGITS: usize = 6;
 
@@ -170,6 +160,9 @@ fn lighten(tree: &mut Value) {
     for node in nodes.into_iter().flatten() {
         if let Some(keys) = node.as_object_mut() {
             keys.retain(|key, _| !DETAILS.contains(&key.as_str()));
+            for key in LISTS {
+                keys.insert(key.to_owned(), Value::Array(Vec::new()));
+            }
             if keys.get("normal") == keys.get("geometric_normal") {
                 keys.remove("geometric_normal");
             }
@@ -196,7 +189,7 @@ fn drop_nothing(value: &mut Value) {
     match value {
         Value::Object(keys) => {
             keys.values_mut().for_each(drop_nothing);
-            keys.retain(|_, v| !v.is_null() && !v.as_array().is_some_and(Vec::is_empty));
+            keys.retain(|_, v| !v.is_null());
         }
         Value::Array(list) => list.iter_mut().for_each(drop_nothing),
         _ => {}
