@@ -159,7 +159,7 @@ export class Viewer {
     const rest = machine.value ? 0.12 : g.value.nodes.length > MANY ? 0.3 : 0.62;
     this.rays.fade((i) => (few || on.has(this.drawn[i]!.node) || g.value.nodes[this.drawn[i]!.node]!.parent === chosen ? 1 : rest));
     const accent: [number, number, number] = dark.value ? [1, 0.84, 0.35] : [1, 0.72, 0.12];
-    const glowing = this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);
+    const glowing = machine.value ? [] : this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);
     this.glow.set(glowing.map((line): Line => ({ ...line, color: accent, dash: 0, order: 0, alpha: line.node === chosen ? 1 : 0.6 })));
     this.marked = machine.value ? null : marks(g.value, this.store.node.value, this.space, palette.value, dark.value);
     this.signs.set(this.marked?.lines ?? []);

@@ -47,7 +47,7 @@ fn badly_named(file: &Source) -> Vec<String> {
 }
 
 fn code() -> Vec<Source> {
-    source::all().into_iter().filter(|file| file.is_code() || file.is_script()).collect()
+    source::all().into_iter().filter(|file| file.is_rust() || file.is_script()).collect()
 }
 
 #[test]
