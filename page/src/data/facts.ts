@@ -1,5 +1,5 @@
 // Every recorded fact of a ray, in groups, with all its digits.
-import type { Node, Rgb } from "./types";
+import type { Body, Node, Rgb } from "./types";
 
 export interface Fact { name: string; text: string; unit?: string; rgb?: Rgb }
 export interface Facts { title: string; open: boolean; facts: Fact[] }
@@ -25,7 +25,7 @@ class Group {
   color(key: keyof Node): this {
     this.used.add(key);
     const found = this.node[key];
-    if (Array.isArray(found)) this.facts.push({ name: key, text: exact(found), rgb: found as Rgb });
+    if (Array.isArray(found)) this.facts.push({ name: key.replace(/_/g, " "), text: exact(found), rgb: found as Rgb });
     return this;
   }
   value(name: string, found: unknown, unit?: string): this {
@@ -55,7 +55,7 @@ export function facts(node: Node): Facts[] {
 }
 
 function radiance(g: Group): Fact[] {
-  for (const key of ["weight", "throughput", "local", "emission", "ambient", "arrived", "result", "contribution", "lost"] as const) g.color(key);
+  for (const key of ["weight", "throughput", "local", "emission", "ambient", "blurred_sky", "arrived", "result", "contribution", "lost"] as const) g.color(key);
   return g.key("stop").facts;
 }
 
@@ -77,8 +77,8 @@ function light(g: Group, node: Node): Fact[] {
 }
 
 function optics(g: Group, node: Node): Fact[] {
-  const bodies = (list: { object: string; priority: number; ior: number }[] | null | undefined): string =>
-    !list?.length ? "none" : list.map((body) => `${body.object} (n ${exact(body.ior)}, priority ${body.priority})`).join(", ");
+  const bodies = (list: Body[] | null | undefined): string =>
+    !list?.length ? "none" : list.map((body) => `${body.object} (n ${exact(body.ior)}${typeof body.priority === "number" ? `, priority ${body.priority}` : ""})`).join(", ");
   if (node.media) {
     g.value("n₁", node.media.n1).value("n₂", node.media.n2);
     g.value("in before", bodies(node.media.before)).value("in after", bodies(node.media.after));
@@ -115,7 +115,7 @@ function material(g: Group, node: Node): Fact[] {
 
 function drawn(g: Group, node: Node): Fact[] {
   if (node.drawn) {
-    g.value("from", node.drawn.from).value("pdf", node.drawn.pdf, "1/sr").value("pdf of the other way", node.drawn.other_pdf, "1/sr");
+    g.value("from", node.drawn.from).value("lobe", node.drawn.lobe).value("rays that share", node.drawn.rays).value("pdf", node.drawn.pdf, "1/sr").value("pdf of the other way", node.drawn.other_pdf, "1/sr");
     g.value("mis weight", node.drawn.mis).value("f", node.drawn.f, "1/sr").value("cos", node.drawn.cos);
   }
   for (const numbers of node.random ?? []) g.value(`random: ${numbers.dim}`, numbers.u);

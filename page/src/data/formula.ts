@@ -1,5 +1,5 @@
 // The formulas of a ray with its numbers substituted, term by term.
-import { add, isBlack, times } from "./color";
+import { add, BLACK, isBlack, times } from "./color";
 import type { Grove } from "./forest";
 import { asksLight } from "./kinds";
 import { degrees, num, subscript, triple, tuple } from "./number";
@@ -67,17 +67,19 @@ function lightArrives(node: Node): Formula | null {
 }
 
 function local(node: Node): Formula | null {
-  if (!node.emission || !node.ambient || (isBlack(node.emission) && isBlack(node.ambient))) return null;
-  const total = add(node.emission, node.ambient);
-  if (!nearRgb(total, node.local)) return null;
+  const named: [string, Rgb | null | undefined][] = [["emission", node.emission], ["ambient", node.ambient], ["sky, blurred", node.blurred_sky]];
+  const parts = named.filter((part): part is [string, Rgb] => !!part[1] && !isBlack(part[1]));
+  if (parts.length === 0) return null;
+  const total = parts.reduce((s, [, part]) => add(s, part), BLACK);
+  const joined = (terms: Term[]): Term[] => terms.flatMap((term, i) => (i ? [say(" + "), term] : [term]));
   return {
     title: "Light of its own",
     lines: [
-      [sym("local"), say(" = "), sym("emission"), say(" + "), sym("ambient")],
-      [say("= "), rgb(node.emission), say(" + "), rgb(node.ambient)],
+      [sym("local"), say(" = "), ...joined(parts.map(([name]) => sym(name)))],
+      [say("= "), ...joined(parts.map(([, part]) => rgb(part)))],
       [say("= "), rgb(total)],
     ],
-    check: { agrees: true, text: `recorded ${tuple(node.local)}` },
+    check: { agrees: nearRgb(total, node.local), text: `recorded ${tuple(node.local)}` },
   };
 }
 
@@ -85,7 +87,6 @@ function local(node: Node): Formula | null {
 function weight(g: Grove, node: Node): Formula | null {
   const d = node.drawn;
   if (node.parent === null || !d) return null;
-  const lines: Term[][] = [];
   const names: Term[] = [];
   const values: Term[] = [];
   if (d.f) {
@@ -107,12 +108,17 @@ function weight(g: Grove, node: Node): Formula | null {
     up.push(say(" × "), sym("mis"));
     down.push(say(" × "), val(num(d.mis)));
   }
-  lines.push([sym("weight"), say(" ∝ "), ...up], [...down], [sym("weight"), say(" = "), rgb(node.weight)]);
-  const cos = d.cos ?? 1;
-  const product = d.f ? (d.f.map((x) => x * cos) as Rgb) : null;
-  const plain = product && typeof d.pdf !== "number" && typeof d.mis !== "number";
-  if (plain && nearRgb(product, node.weight)) lines[0]![1] = say(" = ");
-  return { title: `Weight of ${g.letters[node.id]}, drawn from ${d.from}`, lines };
+  const rays = d.rays ?? 1;
+  if (rays > 1) {
+    up.push(say(" / "), sym("rays"));
+    down.push(say(" / "), val(num(rays)));
+  }
+  const factor = ((d.cos ?? 1) * (d.mis ?? 1)) / ((d.from === "light" ? 1 : (d.pdf ?? 1)) * rays);
+  const product = d.f ? (d.f.map((x) => x * factor) as Rgb) : null;
+  const agrees = product !== null && nearRgb(product, node.weight);
+  // What else went into it, as the share of light that is left on the way, is not repeated here.
+  const lines = [[sym("weight"), say(agrees ? " = " : " ∝ "), ...up], [say(agrees ? "= " : "∝ "), ...down], [say("= "), rgb(node.weight)]];
+  return { title: `Weight of ${g.letters[node.id]}, drawn from ${d.lobe ?? d.from}`, lines };
 }
 
 function share(g: Grove, node: Node): Formula | null {
@@ -229,7 +235,7 @@ function refracted(g: Grove, node: Node): Formula | null {
 
 function reflectance(node: Node): Formula | null {
   const at = facing(node);
-  if (!at || !node.media || !node.fresnel) return null;
+  if (!at || !node.media || !node.fresnel || node.fresnel.constant) return null;
   const s = snell(at.v, at.n, node.media.n1, node.media.n2);
   const f = fresnel(s);
   const agrees = Math.abs(f.reflect - node.fresnel.reflect) < 1e-3;

@@ -67,7 +67,7 @@ export function isUntraced(node: Node): boolean {
   return UNTRACED.has(node.stop ?? "");
 }
 
-const UNTRACED = new Set(["depth-limit", "contribution-below-cutoff", "tir-no-refraction", "absorbed", "roulette", "cancelled"]);
+const UNTRACED = new Set(["depth-limit", "contribution-below-cutoff", "tir-no-refraction", "absorbed", "roulette", "cancelled", "light-behind-surface", "below-horizon"]);
 
 /** Reasons to stop: a sign for badges, and what it means. */
 export const STOPS: Record<string, { sign: string; word: string; says: string }> = {

@@ -68,8 +68,8 @@ export function statistics(trees: Tree[]): Statistics {
 
 function countLight(s: Statistics, lights: Map<string, Share & { asked: number; occluded: number }>, node: Node, light: number) {
   const name = node.light?.name ?? `light ${node.light?.index ?? "?"}`;
-  const occluded = node.stop === "light-occluded" || node.light?.visible === false ? 1 : 0;
-  const asked = node.stop === "light-behind-surface" ? 0 : 1;
+  const occluded = node.stop === "light-occluded" ? 1 : 0;
+  const asked = isUntraced(node) ? 0 : 1;
   s.asked += asked;
   s.occluded += occluded;
   const found = lights.get(name) ?? { name, rays: 0, light: 0, asked: 0, occluded: 0 };

@@ -16,7 +16,7 @@ export interface LightFact {
   unoccluded: Rgb;
 }
 
-export interface Body { object: string; priority: number; ior: number }
+export interface Body { object: string; priority?: number | null; ior: number }
 
 export interface Lobe {
   name: string;
@@ -33,6 +33,9 @@ export interface Drawn {
   mis?: number | null;
   f?: Rgb | null;
   cos?: number | null;
+  lobe?: string | null;
+  /** Rays among which the light is shared. */
+  rays?: number | null;
 }
 
 export interface TextureLookup {
@@ -87,12 +90,13 @@ export interface Node {
   cos?: number | null;
   time?: number | null;
   media?: { before?: Body[] | null; after?: Body[] | null; n1: number; n2: number } | null;
-  fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean } | null;
+  fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean; constant?: boolean | null; eta?: number | null } | null;
   lobes?: Lobe[] | null;
   drawn?: Drawn | null;
   arrived?: Rgb | null;
   emission?: Rgb | null;
   ambient?: Rgb | null;
+  blurred_sky?: Rgb | null;
   random?: { dim: string; u: number[] }[] | null;
   sampler?: string | null;
   textures?: TextureLookup[] | null;

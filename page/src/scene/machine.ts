@@ -101,7 +101,7 @@ export class Machine {
     const context = this.paper.getContext("2d")!;
     context.fillStyle = this.colorAt(u, v);
     context.beginPath();
-    context.arc(u * this.paper.width, v * this.paper.height, 3.2, 0, 2 * Math.PI);
+    context.arc(u * this.paper.width, v * this.paper.height, 4.5, 0, 2 * Math.PI);
     context.fill();
     this.texture.needsUpdate = true;
   }
@@ -174,7 +174,7 @@ export class Machine {
   viewpoint(): { target: Vector3; direction: Vector3; distance: number } {
     const target = this.eye.clone().addScaledVector(this.look, this.depth * 1.3);
     const direction = this.look.clone().addScaledVector(this.right, -0.75).addScaledVector(this.space.up, -0.42).normalize();
-    return { target, direction, distance: this.depth * 4.2 };
+    return { target, direction, distance: this.depth * 3.5 };
   }
 
   size(width: number, height: number): void {

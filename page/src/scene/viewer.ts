@@ -11,6 +11,7 @@ import { Ghosts } from "./ghosts";
 import { Labels } from "./labels";
 import { Machine } from "./machine";
 import { hitOf, marks, type Label, type Marks } from "./marks";
+import { Pace } from "./pace";
 import { attach, nearest } from "./pointer";
 import { ends, lines, type RayLine } from "./rays";
 import { Rig } from "./rig";
@@ -44,9 +45,12 @@ export class Viewer {
   private grown = 1;
   private growBegan = 0;
   private size: [number, number] = [1, 1];
+  private readonly pace = new Pace(() => this.resize());
 
   constructor(private readonly canvas: HTMLCanvasElement, layer: HTMLElement, private readonly store: Store) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    // Lines smooth their own edges; many of them would pay dearly for having it done again.
+    const antialias = store.page.trees.every((tree) => tree.nodes.length <= MANY);
+    this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
     this.space = new Space(store.page);
     this.ghosts = new Ghosts(store.page.scene, this.space);
     this.machine = new Machine(store.page, this.space, this.ghosts);
@@ -73,7 +77,7 @@ export class Viewer {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.size = [width, height];
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.pace.density);
     this.renderer.setSize(width, height, false);
     [...this.sets(), this.machine].forEach((set) => set.size(width, height));
     this.rig.camera.aspect = width / height;
@@ -159,7 +163,7 @@ export class Viewer {
     const rest = machine.value ? 0.12 : g.value.nodes.length > MANY ? 0.3 : 0.62;
     this.rays.fade((i) => (few || on.has(this.drawn[i]!.node) || g.value.nodes[this.drawn[i]!.node]!.parent === chosen ? 1 : rest));
     const accent: [number, number, number] = dark.value ? [1, 0.84, 0.35] : [1, 0.72, 0.12];
-    const glowing = this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);
+    const glowing = machine.value ? [] : this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);
     this.glow.set(glowing.map((line): Line => ({ ...line, color: accent, dash: 0, order: 0, alpha: line.node === chosen ? 1 : 0.6 })));
     this.marked = machine.value ? null : marks(g.value, this.store.node.value, this.space, palette.value, dark.value);
     this.signs.set(this.marked?.lines ?? []);
@@ -279,6 +283,7 @@ export class Viewer {
     if (this.marked) this.signs.group.scale.setScalar(this.rig.pixel(this.marked.at, height) * Math.min(MARK_RADIUS, height / 5));
     this.signs.group.visible = this.marked !== null && !this.rig.sits;
     this.renderer.render(this.scene, this.rig.camera);
+    this.pace.drawn(now);
     this.labels.show(this.labelled(), this.rig.camera, width, height);
     if (moving || this.grown < 1) this.invalidate();
   }

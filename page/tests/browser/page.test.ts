@@ -236,7 +236,7 @@ describe("ten thousand rays", () => {
     await shows(tab, 20);
     console.log(`20 steps down the outline of 10 000 rays: ${Date.now() - began} ms`);
     await tab.getByRole("button", { name: "Slide" }).click();
-    await expect.poll(() => tab.locator("canvas.slide").getAttribute("data-shown")).toBe(String(count));
+    await expect.poll(() => tab.locator("canvas.slide").getAttribute("data-shown"), { timeout: 30_000 }).toBe(String(count));
     const rate = await tab.evaluate(() => window.durer!.viewer!.turn(20));
     console.log(`10 000 rays in 3D without a graphics card: ${rate.toFixed(1)} frames per second`);
     await done(opened);

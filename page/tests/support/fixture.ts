@@ -7,7 +7,8 @@ import type { Page } from "../../src/data/types";
 
 const FOLDER = join(__dirname, "../fixtures");
 
-/** `durer trace whitted --pixel 370,200 --width 640 --height 360 --spp 4 --diff '--max-depth 2'`, two of the samples. */
+/** `durer trace whitted --pixel 370,200 --width 640 --height 360 --spp 2 --diff '--max-depth 2'
+ * -o whitted.page.json`. */
 export function whitted(): Page {
   return completed(JSON.parse(readFileSync(join(FOLDER, "whitted.json"), "utf8")) as Page);
 }
