@@ -39,7 +39,7 @@ impl Metres {
     pub fn short(exact: f64, rounded: f32) -> Self {
         let grain = f64::from(rounded.abs().next_up() - rounded.abs()) / 4.0;
         // Moving the origin rounds too.
-        let grain = grain.max(exact.abs() * 4.0 * f64::EPSILON);
+        let grain = grain.max(exact.abs() * 16.0 * f64::EPSILON);
         if !exact.is_finite() || grain <= 0.0 || !grain.is_finite() {
             return Self(exact);
         }
