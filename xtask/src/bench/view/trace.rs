@@ -15,7 +15,7 @@ const PAGES: &[(&str, &str)] = &[
     ("whitted-16", "--width 640 --height 360 --pixel 370,200 --spp 16"),
     // As many trees of other samples as there is room for.
     ("whitted-filled", "--width 640 --height 360 --pixel 320,200 --spp 512"),
-    // One tree of 10 428 rays. The small picture beside it is drawn with the same options: a larger one takes a minute.
+    // One tree of 10 428 rays. The small picture beside it is drawn with the same options: a larger one takes minutes.
     ("whitted-deep", "--width 64 --height 36 --pixel 32,20 --spp 1 --min-contribution 0 --max-depth 16"),
 ];
 
