@@ -42,6 +42,11 @@ Tasks of the durer project.
       sponza, sphere8, dragon, buddha (of the test files) and terrain (generated). To measure less:
       --mode fast or robust, --threads 1 or 2, --without-builds.
 
+  cargo xtask bench view [--json] [--runs N] [--without-browser]
+      How long recording ray trees takes, for each of 50 pixels of `whitted` and of the dragon of the test files, and
+      `durer trace` as a whole, N times (default 3); how large its pages are; how fast pages of 10,000 rays are in
+      Chromium (docs/benchmarks.md). What is missing is said and left out.
+
   cargo xtask assets [--folder F] [--formats gltf,obj,ply,stl] [--width 320]
       Opens and renders every model of these formats in the folder of test files (F, else the assets/ in DURER_SHARED,
       else ../shared/assets); writes docs/assets.md with a thumbnail, counts and times of each and says which were
@@ -70,6 +75,7 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
         ["page"] => page::run(),
         ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
         ["bench", "kernel", options @ ..] => bench::kernel::run(options),
+        ["bench", "view", options @ ..] => bench::view::run(&bench::view::Options::parse(options)?),
         ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

@@ -41,9 +41,7 @@ pub(crate) fn build_and_check(steps: &mut Steps) -> anyhow::Result<bool> {
 
 /// Opens pages in Chromium if it is there: those of the fixtures, and those that the program writes.
 pub(crate) fn try_in_browser(steps: &mut Steps) -> anyhow::Result<()> {
-    let named = std::env::var_os("DURER_CHROMIUM").map(PathBuf::from);
-    let mut places = named.into_iter().chain(CHROMIUM.iter().map(PathBuf::from));
-    if !places.any(|place| place.is_file()) {
+    if !has_chromium() {
         println!("\n==> SKIPPED: the HTML page's tests in a browser: no Chromium (apt-get install chromium)");
         return Ok(());
     }
@@ -53,8 +51,14 @@ pub(crate) fn try_in_browser(steps: &mut Steps) -> anyhow::Result<()> {
     steps.program(&[NPM, "run", "test:browser"], "page", &[("DURER_BIN", program)])
 }
 
+/// Whether Chromium is where the page's tests look for it.
+pub(crate) fn has_chromium() -> bool {
+    let named = std::env::var_os("DURER_CHROMIUM").map(PathBuf::from);
+    named.into_iter().chain(CHROMIUM.iter().map(PathBuf::from)).any(|place| place.is_file())
+}
+
 /// What is missing for building the page, with its cure.
-fn missing() -> Option<String> {
+pub(crate) fn missing() -> Option<String> {
     let version = said(&["node", "--version"]);
     let enough = version.as_deref().and_then(parse).is_some_and(|version| version >= OLDEST);
     let (major, minor) = OLDEST;

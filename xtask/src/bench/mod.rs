@@ -6,12 +6,14 @@
 //!
 //! In turns, so that what else the machine does hits both; the medians are what to quote. durer counts its rays while
 //! it is timed, as POV-Ray does.
+mod built;
 mod durer;
 mod embree;
 pub(crate) mod kernel;
 mod povray;
 mod quality;
 mod report;
+pub(crate) mod view;
 
 use std::fs;
 
