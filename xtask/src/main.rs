@@ -5,6 +5,7 @@ mod assets;
 mod bench;
 mod measure;
 mod needs;
+mod page;
 mod steps;
 mod test;
 
@@ -21,7 +22,12 @@ Tasks of the durer project.
 
   cargo xtask test [--quick]
       Checks that the tools are there, then runs: formatting, lints, all tests, documentation, release build.
-      --quick leaves out lints, documentation and the release build.
+      --quick leaves out lints, documentation, the release build and the page's tests in a browser. Without Node the
+      page is left out, without Chromium its tests in a browser; both are said loudly.
+
+  cargo xtask page
+      Builds the HTML page from page/ (npm ci, vite build) and puts it into crates/page/dist/, where the next build of
+      durer finds it. Needs Node 18.19 or newer and npm. A published crate holds the built page.
 
   cargo xtask bench render [--json] [--runs N] [--quality]
       Renders benches/povray_spheres.pbrt at 1280 x 960 with 2 threads N times (default 5), in turns with POV-Ray on
@@ -61,6 +67,7 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
     match words {
         ["test"] => test::run(test::Extent::Full),
         ["test", "--quick"] => test::run(test::Extent::Quick),
+        ["page"] => page::run(),
         ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
         ["bench", "kernel", options @ ..] => bench::kernel::run(options),
         ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),

@@ -49,6 +49,22 @@ const NEEDS: &[Need] = &[
         optional: false,
     },
     Need {
+        name: "Node 18.19 or newer with npm, for the HTML page",
+        probe: &["npm", "--version"],
+        cure: &["apt-get", "install", "-y", "--no-install-recommends", "nodejs", "npm"],
+        root: true,
+        full: false,
+        optional: true,
+    },
+    Need {
+        name: "Chromium, for the HTML page's tests",
+        probe: &["chromium", "--version"],
+        cure: &["apt-get", "install", "-y", "--no-install-recommends", "chromium", "fonts-dejavu-core"],
+        root: true,
+        full: true,
+        optional: true,
+    },
+    Need {
         name: "valgrind, for counting instructions",
         probe: &["valgrind", "--version"],
         cure: &["apt-get", "install", "-y", "--no-install-recommends", "valgrind"],

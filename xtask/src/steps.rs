@@ -17,13 +17,29 @@ pub(crate) struct Steps {
 impl Steps {
     /// Runs `cargo` with these words in the workspace, with additions to the environment.
     pub(crate) fn cargo(&mut self, words: &[&str], environment: &[(&str, &str)]) -> anyhow::Result<()> {
-        let shown = shown(words, environment);
+        let shown = shown("cargo", words, environment);
+        self.run_in(Command::new(cargo()).args(words).envs(environment.iter().copied()), "", shown)
+    }
+
+    /// Runs another program with these words in a folder of the workspace, with additions to the environment.
+    pub(crate) fn program(
+        &mut self,
+        words: &[&str],
+        folder: &str,
+        environment: &[(&str, &str)],
+    ) -> anyhow::Result<()> {
+        let (program, rest) = words.split_first().context("a program")?;
+        let shown = format!("(cd {folder} && {})", shown(program, rest, environment));
+        let mut command = Command::new(program);
+        command.args(rest).envs(environment.iter().copied());
+        self.run_in(&mut command, folder, shown)
+    }
+
+    fn run_in(&mut self, command: &mut Command, folder: &str, shown: String) -> anyhow::Result<()> {
         println!("\n==> {shown}");
         let start = Instant::now();
-        let status = Command::new(cargo())
-            .args(words)
-            .envs(environment.iter().copied())
-            .current_dir(root()?)
+        let status = command
+            .current_dir(root()?.join(folder))
             .status()
             .with_context(|| format!("{shown} cannot be started"))?;
         let took = start.elapsed();
@@ -48,10 +64,13 @@ impl Steps {
 }
 
 /// As one would type it.
-fn shown(words: &[&str], environment: &[(&str, &str)]) -> String {
+fn shown(program: &str, words: &[&str], environment: &[(&str, &str)]) -> String {
     let mut shown: String = environment.iter().map(|(name, value)| format!("{name}=\"{value}\" ")).collect();
-    shown.push_str("cargo ");
-    shown.push_str(&words.join(" "));
+    shown.push_str(program);
+    for word in words {
+        shown.push(' ');
+        shown.push_str(word);
+    }
     shown
 }
 

@@ -1,5 +1,5 @@
 //! `cargo xtask test`: everything that must hold before a change is taken.
-use crate::{needs, steps::Steps};
+use crate::{needs, page, steps::Steps};
 
 /// Links to private items are fine: heads of files are written for readers of the source, too.
 const RUSTDOC: &str = "-D warnings -A rustdoc::private_intra_doc_links";
@@ -53,11 +53,16 @@ pub(crate) fn run(extent: Extent) -> anyhow::Result<()> {
     needs::check(full)?;
     let mut steps = Steps::default();
     steps.cargo(&["fmt", "--all", "--check"], &[])?;
+    // Before anything is compiled: the page becomes part of the program.
+    let page = page::build_and_check(&mut steps)?;
     if full {
         steps.cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
     }
     steps.cargo(&["test", "--workspace", "--no-fail-fast"], &[])?;
     if full {
+        if page {
+            page::try_in_browser(&mut steps)?;
+        }
         sanitize(&mut steps)?;
         // Only libraries: the program and the façade would both be called `durer`.
         steps.cargo(&["doc", "--workspace", "--no-deps", "--lib"], &[("RUSTDOCFLAGS", RUSTDOC)])?;

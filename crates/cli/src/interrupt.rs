@@ -13,10 +13,11 @@ pub(crate) struct Interrupt {
 }
 
 impl Interrupt {
-    /// Starts to listen. Before [`Interrupt::rendering`] there is no picture to keep: Ctrl-C ends the program.
+    /// Starts to listen. Before [`Interrupt::rendering`] there is nothing to keep: Ctrl-C ends the program. After it the user
+    /// is told `what` becomes of what there is.
     ///
     /// Shells let background jobs of scripts ignore the signal; someone who sends it all the same means it.
-    pub(crate) fn listen() -> anyhow::Result<Self> {
+    pub(crate) fn listen(what: &'static str) -> anyhow::Result<Self> {
         let this = Self { cancel: Arc::default(), rendering: Arc::default() };
         let (cancel, rendering) = (Arc::clone(&this.cancel), Arc::clone(&this.rendering));
         ctrlc::set_handler(move || {
@@ -24,12 +25,12 @@ impl Interrupt {
             if second || !rendering.load(Ordering::Relaxed) {
                 std::process::exit(Exit::Interrupted as i32);
             }
-            tell("\ninterrupted: writing the picture so far (Ctrl-C again to leave at once)");
+            tell(&format!("\ninterrupted: {what} (Ctrl-C again to leave at once)"));
         })?;
         Ok(this)
     }
 
-    /// From now on there is a picture. The flag to watch.
+    /// From now on there is something to keep. The flag to watch.
     pub(crate) fn rendering(&self) -> &AtomicBool {
         self.rendering.store(true, Ordering::Relaxed);
         &self.cancel

@@ -56,8 +56,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Render(render::Args),
-    Trace(trace::Args),
+    Render(Box<render::Args>),
+    Trace(Box<trace::Args>),
     Cost(Box<cost::Args>),
     Draw(Box<draw::Args>),
     Info(info::Args),

@@ -1,5 +1,6 @@
 //! Options that several commands share, what they mean to the library, and how to say them again.
 mod distribution;
+mod overlay;
 
 use std::path::PathBuf;
 

@@ -79,7 +79,7 @@ fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let scene = &args.sample.scene.scene;
     let outputs = destinations(&args.output, scene)?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen("writing the picture so far")?;
     let wishes = durer::Options { threads: args.threads.map(|n| n as usize), ..args.sample.wishes() };
     let loaded = load(scene, &wishes);
     report::print(scene, &loaded.imported, &args.talk);

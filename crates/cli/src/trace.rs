@@ -1,53 +1,40 @@
-//! `durer trace`: one pixel sample again, every ray recorded.
+//! `durer trace`: pixel samples again, every ray recorded.
 
-mod json;
+mod compare;
+mod find;
+mod help;
+mod output;
 mod text;
+mod which;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use durer::{
+    Prepared,
+    drive::{Antialias, Taken},
+    probe::{Clock, Detail},
+    tree::{Find, Page, Subject, Surroundings},
 };
 
-use anyhow::Context;
-use durer::{Prepared, drive::Antialias, film::Pixel, probe::RayTree};
-
 use crate::{
-    exit::{Exit, WrongUsage, emit, emit_json, harmless, tell},
+    exit::{Exit, WrongUsage, emit, harmless, tell},
+    interrupt::Interrupt,
     load::load,
     options::{SampleOptions, TalkOptions},
-    output::check_writable,
     report,
     value::{pixel, whole},
 };
+use help::EXAMPLES;
+use output::Output;
+use which::Which;
 
-const EXAMPLES: &str = "\
-Examples:
-  durer trace --pixel 640,360
-  durer trace room.glb --pixel 320,240 --sample 7 --spp 64
-  durer trace --pixel 640,360 --json | jq '.nodes[] | select(.kind == \"shadow\")'
-  durer trace --pixel 640,360 --spp 1 -o tree.json
+/// Nodes of all trees of a page together: other samples than those asked for are left out beyond.
+const PAGE_NODES: usize = 10_000;
+/// Rays of a page whose boxes are recorded.
+const PAGE_WALKS: u32 = 16;
 
-Give the options of the render whose sample you want: the size and --spp decide
-where in the pixel a sample lies. With --spp 1 the last line, `pixel R G B`, has
-the very bits of that pixel in `durer render --spp 1 -o x.exr`. With --antialias
-adaptive the samples are, in this order: the pixel's corners (upper left, upper
-right, lower left, lower right), then for each split what is new of the middles
-of its upper and left edges, its centre and the middles of its right and lower
-edges; a part that is split no further may have one more inside.
-
-JSON: an object with version 1; scene, integrator, width, height, pixel, sample,
-rgb and nodes, parents before children. A node has id, parent (null for the eye
-ray), kind, depth, origin, direction (unit), t (metres), point, object, instance,
-primitive (both as the kernel counts them), normal, uv, side (outside, inside),
-weight (what the parent multiplies its result with), throughput (its share in the
-pixel), local (radiance from no other ray), contribution (throughput x local),
-result (its radiance: local plus the sum of weight x result of its children, in
-order), stop, lost (the share that an untraced ray would have had), light (index,
-name, point, visible, unoccluded), blocker, and tests (boxes, primitives). What
-does not apply, and what is infinite or NaN, is null. Places are in world space.
-Within a version keys may be added, none renamed.";
-
-/// Shows the rays of one pixel sample as a tree.
+/// Shows the rays of a pixel sample as a tree.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -55,104 +42,175 @@ pub(crate) struct Args {
     sample_options: SampleOptions,
     /// Which pixel; 0,0 is the upper left one.
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, help_heading = "Ray tree")]
-    pixel: [u32; 2],
-    /// Which of its samples.
-    #[arg(long, value_name = "K", value_parser = whole(0..=u32::MAX), allow_negative_numbers = true)]
-    #[arg(default_value_t = 0, help_heading = "Ray tree")]
-    sample: u32,
+    #[arg(required_unless_present = "find", conflicts_with = "find")]
+    pixel: Option<[u32; 2]>,
+    /// Which of its samples: a number from 0, the brightest, the first that is infinite or NaN, or all [default: 0, or
+    /// what was found].
+    #[arg(long, value_name = "K|all|brightest|nan", value_parser = Which::read, allow_negative_numbers = true)]
+    #[arg(help_heading = "Ray tree")]
+    sample: Option<Which>,
+    /// Takes all samples of the picture and shows the worst instead of those of a pixel.
+    #[arg(long, value_name = "WHAT", value_parser = finds(), help_heading = "Ray tree")]
+    find: Option<Find>,
+    /// The same samples with the same random numbers under these options as well, and what differs: any of the options on
+    /// scene, film, light transport and distribution, or another scene.
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, help_heading = "Ray tree")]
+    diff: Option<String>,
+    /// Records which boxes the first N rays are tested against, in order. The page has those of the first 16 rays.
+    #[arg(long, value_name = "N", value_parser = whole(0u32..=1_000_000), allow_negative_numbers = true)]
+    #[arg(default_value_t = 0, hide_default_value = true, help_heading = "Ray tree")]
+    walk: u32,
     /// The tree as JSON on stdout.
     #[arg(long, help_heading = "Ray tree")]
     json: bool,
-    /// The tree as JSON into a file (.json) as well.
+    /// Writes a file as well; may be given several times. The suffix says which format: .html, .json, .svg, .dot, .glb,
+    /// .csv, .md.
     #[arg(long, short, value_name = "FILE", help_heading = "Ray tree")]
-    output: Option<PathBuf>,
+    output: Vec<PathBuf>,
+    /// Worker threads of --find and of small pictures [default: all cores].
+    #[arg(long, value_name = "N", value_parser = whole(1u32..=4096))]
+    #[arg(allow_negative_numbers = true, help_heading = "Running")]
+    threads: Option<u32>,
     #[command(flatten)]
     talk: TalkOptions,
 }
 
-/// A recorded sample and what its numbers refer to.
-struct Traced<'a> {
-    scene: &'a str,
-    prepared: &'a Prepared,
+fn finds() -> impl TypedValueParser<Value = Find> {
+    PossibleValuesParser::new(Find::WORDS).try_map(|word| Find::from_word(&word).ok_or("unknown"))
+}
+
+/// What is shown: a pixel, which of its samples, and whether the search for it was given up.
+struct Chosen {
     pixel: [u32; 2],
-    sample: u32,
-    /// What the film holds of it.
-    rgb: [f32; 3],
-    tree: RayTree,
+    samples: Vec<u32>,
+    interrupted: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
-    let output = args.output.as_deref();
-    output.map_or(Ok(()), check_output)?;
+    let outputs = output::outputs(&args.output)?;
+    let other = args.diff.as_deref().map(|words| args.sample_options.overlaid(words)).transpose()?;
+    let interrupt = Interrupt::listen("the worst so far is shown")?;
     let scene = &args.sample_options.scene.scene;
-    let loaded = load(scene, &args.sample_options.wishes());
+    let loaded = load(scene, &args.wishes(&args.sample_options));
     report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
         return Ok(loaded.failure);
     };
-    args.check_range(prepared)?;
-
-    let (tree, value) = prepared.job().record(args.pixel, args.sample);
-    let traced =
-        Traced { scene, prepared, pixel: args.pixel, sample: args.sample, rgb: as_film(value), tree };
-    if let Some(path) = output {
-        let text = serde_json::to_string_pretty(&json::Tree::new(&traced))?;
-        fs::write(path, text + "\n").with_context(|| format!("{}: cannot be written", path.display()))?;
-        if !args.talk.quiet {
-            tell(&format!("wrote {}", path.display()));
-        }
+    let Some(chosen) = args.choose(prepared, &interrupt)? else {
+        return Ok(Exit::Failed);
+    };
+    let subject = Subject { name: scene, prepared };
+    let mut page = subject.page(chosen.pixel, &chosen.samples, args.around(&outputs), args.detail(&outputs));
+    if let Some(other) = other {
+        let loaded = load(&other.scene.scene, &args.wishes(&other));
+        report::print(&other.scene.scene, &loaded.imported, &args.talk);
+        let Some(prepared) = &loaded.prepared else {
+            return Ok(loaded.failure);
+        };
+        let twin = Subject { name: &other.scene.scene, prepared };
+        compare::add(&mut page, &subject, &twin, args.diff.as_deref().unwrap_or_default())?;
     }
+    let shown = output::only(&page, chosen.samples.len(), args.walk);
+    let written = output::write(&outputs, &page, &shown, &args.talk);
     if args.json {
-        emit_json(&json::Tree::new(&traced))?;
+        emit(&(shown.json()? + "\n"))?;
     } else {
-        emit(&harmless(&text::tree(&traced)))?;
+        emit(&harmless(&text::page(&shown)))?;
     }
-    Ok(Exit::Done)
-}
-
-/// The mean of a film that holds one sample. Differs from the sample in the sign of zero only, but bits are promised.
-fn as_film(value: [f32; 3]) -> [f32; 3] {
-    let mut pixel = Pixel::default();
-    pixel.add(value, 1.0);
-    pixel.mean()
-}
-
-fn check_output(path: &Path) -> anyhow::Result<()> {
-    let suffix = path.extension().map(|s| s.to_string_lossy().to_lowercase());
-    if suffix.as_deref() != Some("json") && !path.is_dir() {
-        let message = format!("{}: trees are written as JSON\n  help: end the name in .json", path.display());
-        return Err(WrongUsage(message).into());
-    }
-    check_writable(path)
+    Ok(match (written, chosen.interrupted) {
+        (_, true) => Exit::Interrupted,
+        (true, false) => Exit::Done,
+        (false, false) => Exit::Failed,
+    })
 }
 
 impl Args {
-    fn check_range(&self, prepared: &Prepared) -> Result<(), WrongUsage> {
-        let view = &prepared.scene.view;
-        let [x, y] = self.pixel;
-        if x >= view.width || y >= view.height {
-            let (right, bottom) = (view.width - 1, view.height - 1);
-            let size = format!("{} x {}", view.width, view.height);
-            let message = format!(
-                "pixel {x},{y} lies outside the picture of {size} pixels: the last one is {right},{bottom}"
-            );
-            return Err(WrongUsage(message));
+    fn wishes(&self, options: &SampleOptions) -> durer::Options {
+        durer::Options { threads: self.threads.map(|n| n as usize), ..options.wishes() }
+    }
+
+    /// What is recorded beside what is always.
+    fn detail(&self, outputs: &[Output]) -> Detail {
+        let page = outputs.iter().any(|o| o.format.is_page());
+        Detail {
+            walks: self.walk.max(if page { PAGE_WALKS } else { 0 }) as usize,
+            clock: if page { Clock::On } else { Clock::Off },
+            ..Detail::default()
         }
-        let samples = prepared.job().sample_count(self.pixel);
-        if self.sample >= samples {
-            let message = match prepared.settings.antialias {
-                Antialias::Supersample => {
-                    format!(
-                        "there is no sample {}: a pixel has {samples} (--spp), counted from 0",
-                        self.sample
-                    )
-                }
-                Antialias::Adaptive(_) => {
-                    format!("there is no sample {}: this pixel has {samples}, counted from 0", self.sample)
-                }
-            };
-            return Err(WrongUsage(message));
+    }
+
+    /// How much of the scene the files want to show.
+    fn around(&self, outputs: &[Output]) -> Surroundings {
+        if outputs.iter().any(|o| o.format.is_page()) {
+            Surroundings::SceneAndSamples(PAGE_NODES)
+        } else if outputs.iter().any(|o| o.format.shows_scene()) {
+            Surroundings::Scene
+        } else {
+            Surroundings::None
         }
-        Ok(())
+    }
+
+    /// The pixel and the samples; `None`, with a word about it, if there is no such thing.
+    fn choose(&self, prepared: &Prepared, interrupt: &Interrupt) -> anyhow::Result<Option<Chosen>> {
+        let subject = Subject { name: &self.sample_options.scene.scene, prepared };
+        let (pixel, found, interrupted) = match (self.pixel, self.find) {
+            (Some(pixel), _) => (pixel, 0, false),
+            (None, Some(find)) => match find::search(self, find, prepared, interrupt)? {
+                Some((found, interrupted)) => (found.pixel, found.sample, interrupted),
+                None => return Ok(None),
+            },
+            (None, None) => return Err(WrongUsage("--pixel or --find says which pixel".to_owned()).into()),
+        };
+        check_pixel(prepared, pixel)?;
+        let samples = subject.samples(pixel);
+        let which = self.sample.unwrap_or(Which::Index(found));
+        if let Which::Index(sample) = which {
+            check_sample(prepared, &samples, sample)?;
+        }
+        let Some(samples) = which.of(&samples) else {
+            let [x, y] = pixel;
+            let count = samples.len();
+            tell(&format!("error: none of the {count} samples of pixel {x},{y} is infinite or NaN"));
+            return Ok(None);
+        };
+        Ok(Some(Chosen { pixel, samples, interrupted }))
+    }
+}
+
+/// Complains about a pixel that is none of the picture's.
+fn check_pixel(prepared: &Prepared, [x, y]: [u32; 2]) -> Result<(), WrongUsage> {
+    let view = &prepared.scene.view;
+    if x < view.width && y < view.height {
+        return Ok(());
+    }
+    let (right, bottom) = (view.width - 1, view.height - 1);
+    let size = format!("{} x {}", view.width, view.height);
+    Err(WrongUsage(format!(
+        "pixel {x},{y} lies outside the picture of {size} pixels: the last one is {right},{bottom}\n  \
+         help: give the --width and --height of the render that you mean"
+    )))
+}
+
+/// Complains about a sample that the pixel does not have.
+fn check_sample(prepared: &Prepared, samples: &[Taken], sample: u32) -> Result<(), WrongUsage> {
+    let count = samples.len();
+    if (sample as usize) < count {
+        return Ok(());
+    }
+    Err(WrongUsage(match prepared.settings.antialias {
+        Antialias::Supersample => {
+            format!("there is no sample {sample}: a pixel has {count} (--spp), counted from 0")
+        }
+        Antialias::Adaptive(_) => {
+            format!("there is no sample {sample}: this pixel has {count}, counted from 0")
+        }
+    }))
+}
+
+/// The value that stands in the last line: the sample's, or the pixel's if all its samples are shown.
+fn value(page: &Page) -> [f32; 3] {
+    match page.trees.as_slice() {
+        [tree] => durer::tree::plain(tree.rgb),
+        _ => durer::tree::plain(page.mean),
     }
 }

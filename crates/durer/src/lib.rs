@@ -18,6 +18,7 @@ pub mod cost;
 mod environment;
 mod options;
 mod prepare;
+pub mod tree;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
@@ -28,7 +29,8 @@ pub use durer_io::{
 };
 pub use durer_model as model;
 pub use durer_render::{
-    Contribution, ImbalanceTotals, MediumStack, Object, PathRay, SampleCx, Scene, Value, View, compile,
+    Contribution, Form, ImbalanceTotals, MediumStack, Object, PathRay, Piece, SampleCx, Scene, Value, View,
+    compile,
     drive::{self, Gather, Job, Progress, Rendered, Settings},
     film,
     integrator::{self, Output, Shadows, Show},

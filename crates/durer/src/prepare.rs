@@ -1,4 +1,6 @@
 //! A description and wishes to something that renders.
+use std::collections::BTreeMap;
+
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
@@ -10,7 +12,9 @@ use durer_render::{
     film::Tile,
     integrator::{INTEGRATORS, Integrator, Output, Show},
 };
-use durer_scene::{Data, Diagnostics, Location, Missing, Node, Param, SceneDesc, ValueType};
+use durer_scene::{
+    Data, Diagnostics, Location, Missing, Node, Param, ParamDefault, ParamSpec, SceneDesc, ValueType,
+};
 
 use crate::{Distribution, Options, environment};
 
@@ -33,6 +37,10 @@ pub struct Prepared {
     pub integrator: Box<dyn Integrator>,
     /// The integrator's registered word.
     pub integrator_name: String,
+    /// What the integrator was told: its parameters with their values.
+    pub rules: BTreeMap<String, serde_json::Value>,
+    /// Name of each of [`Scene::materials`], or its registered word and number.
+    pub material_names: Vec<String>,
     /// Samples, seed, threads.
     pub settings: Settings,
 }
@@ -41,6 +49,10 @@ impl Prepared {
     /// The part of the picture that is rendered.
     pub fn window(&self) -> Tile {
         self.settings.window(self.scene.view.width, self.scene.view.height)
+    }
+    /// What the material of this number is called.
+    pub fn material_name(&self, material: u32) -> String {
+        self.material_names.get(material as usize).cloned().unwrap_or_else(|| "default".to_owned())
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {
@@ -91,7 +103,16 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         crop: options.crop,
         antialias: options.antialias,
     };
-    Some(Prepared { scene, integrator, integrator_name: registered_word(&integrator_node.kind), settings })
+    let integrator_name = registered_word(&integrator_node.kind);
+    let rules = rules(&integrator_node);
+    Some(Prepared {
+        scene,
+        integrator,
+        integrator_name,
+        rules,
+        material_names: material_names(desc),
+        settings,
+    })
 }
 
 /// Complains about a scene without geometry; `None` if that shall be an error and no sky of its own can be seen either.
@@ -172,6 +193,55 @@ fn is_blurred(scene: &Scene) -> bool {
 fn registered_word(kind: &str) -> String {
     let entry = INTEGRATORS.iter().find(|e| e.answers_to(kind));
     entry.map_or_else(|| compile::default_integrator().kind, |e| e.schema.name.to_owned())
+}
+
+/// The integrator's parameters with their values, without those that have none.
+fn rules(node: &Node) -> BTreeMap<String, serde_json::Value> {
+    let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
+    let rule = |spec: &ParamSpec| {
+        let written = node.params.get(spec.name).map(|param| &param.data);
+        let value = match (written, spec.default) {
+            (Some(Data::Ints(v)), _) if v.len() == 1 => v[0].into(),
+            (Some(Data::Floats(v)), _) if v.len() == 1 => short(v[0]),
+            (Some(Data::Bools(v)), _) if v.len() == 1 => v[0].into(),
+            (Some(Data::Strings(v)), _) if v.len() == 1 => v[0].clone().into(),
+            (_, ParamDefault::Int(v)) => v.into(),
+            (_, ParamDefault::Float(v)) => short(v),
+            (_, ParamDefault::Bool(v)) => v.into(),
+            (_, ParamDefault::Text(v)) => v.into(),
+            _ => return None,
+        };
+        Some((rule_name(spec.name), value))
+    };
+    takes.iter().filter_map(rule).collect()
+}
+
+/// A number with no more digits than it has bits.
+fn short(v: f32) -> serde_json::Value {
+    v.to_string().parse().map_or(serde_json::Value::Null, |v: f64| v.into())
+}
+
+/// Keys are read by programs: words apart.
+fn rule_name(parameter: &str) -> String {
+    let words = [
+        ("max", "depth"),
+        ("min", "contribution"),
+        ("shadow", "rays"),
+        ("gloss", "rays"),
+        ("time", "samples"),
+    ];
+    let more = [("lens", "samples"), ("aa", "samples"), ("attenuation", "distance")];
+    let apart = words.into_iter().chain(more).find(|(a, b)| parameter.strip_prefix(a) == Some(b));
+    apart.map_or_else(|| parameter.to_owned(), |(a, b)| format!("{a}_{b}"))
+}
+
+/// Name of every material, or its kind and number.
+fn material_names(desc: &SceneDesc) -> Vec<String> {
+    let name = |(index, material): (usize, &durer_scene::NamedNode)| match material.name.as_str() {
+        "" => format!("{} {index}", material.node.kind),
+        name => name.to_owned(),
+    };
+    desc.materials.iter().enumerate().map(name).collect()
 }
 
 /// The integrator the options ask for, else the scene's, else the default; with the options' limits put in.

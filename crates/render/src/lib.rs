@@ -9,12 +9,14 @@ pub mod drive;
 pub mod film;
 pub mod integrator;
 mod media;
+mod pieces;
 pub mod probe;
 mod sample;
 mod scene;
 mod view;
 
 pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
+pub use pieces::{Form, Piece};
 pub use sample::{Contribution, PathRay, SampleCx, Value};
 pub use scene::{Object, Scene};
 pub use view::{CameraPlacement, View};

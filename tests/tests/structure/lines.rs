@@ -22,8 +22,9 @@ fn too_long(file: &Source) -> Option<String> {
 }
 
 fn headless(file: &Source) -> Option<String> {
-    let head = file.text.starts_with("//! ");
-    (!head).then(|| format!("{}: must begin with `//! ` and say what it is about", file.path))
+    let begin = if file.is_script() { "// " } else { "//! " };
+    let head = file.text.starts_with(begin);
+    (!head).then(|| format!("{}: must begin with `{begin}` and say what it is about", file.path))
 }
 
 /// The name in `mod name;`, whoever may see it.
@@ -38,34 +39,35 @@ fn declared_module(code: &str) -> Option<&str> {
 
 /// Complaints about folders, the file and the modules it declares.
 fn badly_named(file: &Source) -> Vec<String> {
-    let mut names: Vec<&str> = file.path.split('/').map(|part| part.trim_end_matches(".rs")).collect();
+    let mut names: Vec<&str> =
+        file.path.split('/').map(|part| part.split('.').next().unwrap_or(part)).collect();
     names.extend(file.code().filter_map(|(_, code)| declared_module(code)));
     let bad = names.into_iter().filter(|name| EMPTY_NAMES.contains(name));
     bad.map(|name| format!("{}: \"{name}\" says nothing; name the subject", file.path)).collect()
 }
 
-fn rust() -> Vec<Source> {
-    source::all().into_iter().filter(Source::is_rust).collect()
+fn code() -> Vec<Source> {
+    source::all().into_iter().filter(|file| file.is_rust() || file.is_script()).collect()
 }
 
 #[test]
 fn files_are_short() {
-    insist(rust().iter().filter_map(too_long).collect());
+    insist(code().iter().filter_map(too_long).collect());
 }
 
 #[test]
 fn files_say_what_they_are_about() {
-    insist(rust().iter().filter_map(headless).collect());
+    insist(code().iter().filter_map(headless).collect());
 }
 
 #[test]
 fn names_say_what_is_inside() {
-    insist(rust().iter().flat_map(badly_named).collect());
+    insist(code().iter().flat_map(badly_named).collect());
 }
 
 #[test]
 fn excuses_are_dated_and_needed() {
-    let files = rust();
+    let files = code();
     for (path, since, why) in LONGER {
         assert!(since.len() == "2026-01-31".len() && !why.is_empty(), "{path}: since when, and why?");
         let lines = files.iter().find(|f| f.path == *path).map_or(0, |f| f.text.lines().count());

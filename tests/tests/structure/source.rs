@@ -18,6 +18,11 @@ impl Source {
         self.path.ends_with(".rs")
     }
 
+    /// What the HTML page is written in.
+    pub(crate) fn is_script(&self) -> bool {
+        self.path.ends_with(".ts") || self.path.ends_with(".tsx")
+    }
+
     /// The lines with their numbers, without what follows `//`. A `//` within a string ends the line too: what stands
     /// behind it on the same line is not looked at.
     pub(crate) fn code(&self) -> impl Iterator<Item = (usize, &str)> {
@@ -53,7 +58,7 @@ fn collect(folder: &Path, below: &str, found: &mut Vec<Source>) {
         let path = format!("{below}{name}");
         let kind = entry.file_type().expect("a kind of file");
         // `.git` is a file where a second checkout shares the first one's history.
-        if name == "target" || name == ".git" {
+        if [".git", "dist", "node_modules", "target"].contains(&name.as_str()) {
             continue;
         }
         if kind.is_dir() {

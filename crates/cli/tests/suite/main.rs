@@ -9,6 +9,7 @@ mod pictures;
 mod run;
 mod statistics;
 mod table;
+mod trace_files;
 mod traces;
 mod usage;
 mod words;

@@ -80,14 +80,15 @@ fn json_has_every_key_and_folds_to_the_pixel() {
 
 #[test]
 fn every_key_is_documented() {
-    let page = include_str!("../../../../docs/json.md");
+    let (of_trees, others) =
+        (include_str!("../../../../docs/ray-tree.md"), include_str!("../../../../docs/json.md"));
     let place = Place::new();
     let words = "--width 64 --height 36 --spp 1";
     let tree = place.done(&format!("trace {words} --pixel 37,20 --json")).json();
     let stats = place.done(&format!("render {words} --stats=json")).json();
-    for object in [&tree, &tree["nodes"][0], &stats] {
+    for (page, object) in [(of_trees, &tree), (of_trees, &tree["nodes"][0]), (others, &stats)] {
         for key in object.as_object().expect("an object").keys() {
-            assert!(page.contains(&format!("`{key}`")), "docs/json.md does not mention {key}");
+            assert!(page.contains(&format!("`{key}`")), "no page mentions {key}");
         }
     }
 }
@@ -111,7 +112,14 @@ fn pixels_and_samples_outside_are_wrong_usage() {
         ("--pixel 3,3 --sample 2", "no sample 2"),
         ("--pixel 3", "expected X,Y"),
         ("--pixel 3,-1", "expected X,Y"),
-        ("--pixel 3,3 -o tree.svg", ".json"),
+        ("--pixel 3,3 -o tree.swg", "did you mean .svg? There are .json, .html, .svg, .dot, .glb, .csv, .md"),
+        ("--pixel 3,3 -o tree", "does not say which format"),
+        ("--pixel 3,3 -o a.svg -o a.svg", "named twice"),
+        ("--pixel 3,3 --sample most", "all, brightest, nan"),
+        ("--pixel 3,3 --find nan", "cannot be used with"),
+        ("--find dullest", "firefly, nan, deepest, costliest"),
+        ("--pixel 3,3 --diff --max-deep", "--max-depth"),
+        ("--pixel 3,3 --diff '", "quotation mark"),
         ("", "--pixel"),
     ] {
         let ran = place.run(&format!("trace --width 64 --height 36 --spp 2 {words}"));

@@ -90,15 +90,23 @@ fn complaint(source: &Source<'_>, error: &png::DecodingError) -> AssetError {
 /// If `rgb8` does not hold `3 * width * height` bytes, or the file cannot be written.
 pub fn write_png(path: &Path, width: u32, height: u32, rgb8: &[u8]) -> Result<(), WriteError> {
     check_length(path, "rgb8", rgb8.len(), [width, height], 3)?;
-    let fail = |e: png::EncodingError| WriteError::new(path, e);
+    let bytes = encode_png(width, height, rgb8).map_err(|e| WriteError::new(path, e))?;
+    replace_file(path, &bytes)
+}
+
+/// The bytes of such a file.
+///
+/// # Errors
+/// If `rgb8` does not hold `3 * width * height` bytes.
+pub fn encode_png(width: u32, height: u32, rgb8: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header().map_err(fail)?;
-    writer.write_image_data(rgb8).map_err(fail)?;
-    writer.finish().map_err(fail)?;
-    replace_file(path, &bytes)
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(rgb8)?;
+    writer.finish()?;
+    Ok(bytes)
 }

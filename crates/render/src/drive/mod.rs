@@ -9,11 +9,13 @@ mod part;
 mod pass;
 mod record;
 mod settings;
+mod survey;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use part::{PartCount, scattered};
 pub use record::KilledMap;
 pub use settings::{Nesting, Settings};
+pub use survey::Taken;
 
 use std::sync::{
     Mutex,

@@ -1,0 +1,232 @@
+//! From what the renderer recorded to the document.
+use std::sync::atomic::AtomicBool;
+
+use crate::{
+    Prepared, View,
+    drive::{Antialias, Gather, Taken},
+    film::Tile,
+    math::Point3,
+    probe::{Detail, TreeHit, TreeNode},
+    spectrum::{Basis, Spectrum},
+};
+
+use super::{
+    document::{Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
+    ghost::GhostScene,
+    material,
+    number::{Metres, Number, Place, Rgb, rgb},
+    page::{Dimensions, Page},
+    picture::Thumbnail,
+};
+
+/// A scene that can be traced, and what it is called.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// As the user named it.
+    pub name: &'a str,
+    /// The scene with its settings.
+    pub prepared: &'a Prepared,
+}
+
+/// What goes into a page beside the trees that were asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surroundings {
+    /// Nothing.
+    None,
+    /// The picture, small, and the scene's camera, lights and geometry.
+    Scene,
+    /// And trees of the pixel's other samples, up to so many nodes in all.
+    SceneAndSamples(usize),
+}
+
+impl Subject<'_> {
+    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them.
+    pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings, detail: Detail) -> Page {
+        let samples = self.samples(pixel);
+        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s, detail)).collect();
+        if let Surroundings::SceneAndSamples(most) = around {
+            let mut nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
+            for sample in (0..samples.len() as u32).filter(|s| !chosen.contains(s)) {
+                let tree = self.tree(pixel, &samples, sample, Detail::default());
+                nodes += tree.nodes.len();
+                if nodes > most {
+                    break;
+                }
+                trees.push(tree);
+            }
+        }
+        let with_scene = around != Surroundings::None;
+        Page {
+            version: VERSION,
+            trees,
+            other: None,
+            values: samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect(),
+            dims: samples
+                .iter()
+                .map(|s| Dimensions {
+                    film: s.film.map(Number),
+                    lens: s.lens.map(|l| l.map(Number)),
+                    time: Number(s.time),
+                })
+                .collect(),
+            mean: rgb(self.mean(pixel)),
+            picture: with_scene.then(|| Thumbnail::new(self.prepared)),
+            scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
+        }
+    }
+
+    /// What the picture holds of a pixel, bit for bit.
+    pub fn mean(&self, pixel: [u32; 2]) -> [f32; 3] {
+        let [x, y] = pixel;
+        let mut job = self.prepared.job();
+        job.settings.crop = Some(Tile { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+        let film = job.render(Gather::Rays, &(), &AtomicBool::new(false)).film;
+        film.pixels().get((y * film.width + x) as usize).map_or([0.0; 3], crate::film::Pixel::mean)
+    }
+
+    /// All samples of a pixel, in their order.
+    pub fn samples(&self, pixel: [u32; 2]) -> Vec<Taken> {
+        self.prepared.job().samples_of(pixel, Gather::Rays)
+    }
+
+    /// The document of one sample; `samples` are all of the pixel.
+    pub fn tree(&self, pixel: [u32; 2], samples: &[Taken], sample: u32, detail: Detail) -> Tree {
+        let (recorded, value) = self.prepared.job().record_in(pixel, sample, detail);
+        let taken = samples.get(sample as usize);
+        let view = &self.prepared.scene.view;
+        let nodes: Vec<Node> =
+            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, id, n)).collect();
+        Tree {
+            version: VERSION,
+            durer: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: self.name.to_owned(),
+            integrator: self.prepared.integrator_name.clone(),
+            width: view.width,
+            height: view.height,
+            pixel,
+            sample,
+            samples: samples.len() as u32,
+            antialias: match self.prepared.settings.antialias {
+                Antialias::Supersample => "supersample",
+                Antialias::Adaptive(_) => "adaptive",
+            }
+            .to_owned(),
+            filter_weight: taken.and_then(|t| t.weight).map(Number),
+            film: taken.map(|t| t.film.map(Number)).unwrap_or_default(),
+            lens: taken.and_then(|t| t.lens).map(|l| l.map(Number)),
+            time: taken.map(|t| Number(t.time)).unwrap_or_default(),
+            rules: self.prepared.rules.clone(),
+            rgb: rgb(as_film(value)),
+            killed: of(recorded.killed()),
+            max_radiance: Number(recorded.max_radiance()),
+            bad: recorded.bad,
+            nodes,
+            diff: None,
+        }
+    }
+}
+
+/// The mean of a film that holds one sample. Differs from the sample in the sign of zero only, but bits are promised.
+fn as_film(value: [f32; 3]) -> [f32; 3] {
+    let mut pixel = crate::film::Pixel::default();
+    pixel.add(value, 1.0);
+    pixel.mean()
+}
+
+fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
+    let scene = &prepared.scene;
+    let place = |p: Point3| world(&scene.view, p);
+    let shading = node.shading.as_ref();
+    let mut told = Node {
+        id,
+        parent: node.parent,
+        kind: node.kind.word().to_owned(),
+        depth: node.depth,
+        origin: place(node.o),
+        direction: node.d.normalize().to_array().map(Number),
+        t: node.length().map(Number),
+        time: Number(node.path.ray.time),
+        weight: of(node.weight),
+        throughput: of(node.throughput),
+        local: of(node.local),
+        emission: shading.map(|s| of(s.emission)),
+        ambient: shading.map(|s| of(s.ambient)),
+        blurred_sky: shading.map(|s| of(s.blurred_sky)),
+        arrived: shading.map_or(rgb([1.0; 3]), |s| of(s.arrived)),
+        contribution: of(node.contribution()),
+        result: of(node.result),
+        stop: node.stop.map(|s| s.word().to_owned()),
+        limit: node.limit.map(|l| Limit { value: Number(l.value), threshold: Number(l.threshold) }),
+        lost: of(node.lost),
+        light: node.light.as_ref().map(|l| Light {
+            index: l.light,
+            name: scene.light_names.get(l.light as usize).cloned(),
+            point: l.point.map(place),
+            visible: l.visible,
+            passed: of(l.passed),
+            unoccluded: of(l.unoccluded),
+        }),
+        blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
+        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
+        fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
+        lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
+        drawn: node.chosen.as_ref().map(material::drawn),
+        random: random(node),
+        sampler: Some(node.path.sampler.to_hex()),
+        textures: shading.map(|s| material::lookups(scene, &s.textures)).unwrap_or_default(),
+        tests: Tests {
+            boxes: node.node_tests,
+            primitives: node.primitive_tests,
+            triangles: node.triangle_tests,
+            shapes: node.primitive_tests - node.triangle_tests,
+            ..Tests::default()
+        },
+        ns: node.ns,
+        walk: node
+            .walk
+            .iter()
+            .map(|b| TestedBox { corners: b.bounds.map(place), depth: b.depth, hit: b.hit })
+            .collect(),
+        ..Node::default()
+    };
+    if let Some(hit) = &node.hit {
+        add_hit(&mut told, prepared, hit);
+    }
+    told
+}
+
+/// Where a ray hit, and what.
+fn add_hit(told: &mut Node, prepared: &Prepared, hit: &TreeHit) {
+    let scene = &prepared.scene;
+    let place = |p: Point3| world(&scene.view, p);
+    let object = scene.object(hit.object);
+    told.point = Some(place(hit.p));
+    told.object = Some(object.name.clone());
+    told.instance = Some(hit.hit.instance);
+    told.primitive = Some(scene.resolve(&hit.hit).1);
+    told.material = Some(prepared.material_name(object.material));
+    told.normal = Some(hit.n_s.to_array().map(Number));
+    told.geometric_normal = Some(hit.n_g.to_array().map(Number));
+    told.uv = Some(hit.uv.map(Number));
+    told.barycentric = hit.barycentric().map(|b| b.map(Number));
+    told.triangle = hit.triangle.map(|t| t.map(place));
+    told.side = Some(if hit.from_outside { "outside" } else { "inside" }.to_owned());
+    told.cos = Some(Number(hit.cos));
+}
+
+/// The random numbers that led to a ray, one list for each purpose.
+fn random(node: &TreeNode) -> Vec<Random> {
+    let chosen = node.chosen.as_ref().and_then(|c| c.random.as_ref());
+    let all = node.random.iter().chain(chosen.filter(|c| !node.random.contains(c)));
+    all.map(|r| Random { dim: r.dim.word().to_owned(), u: r.numbers().iter().copied().map(Number).collect() })
+        .collect()
+}
+
+fn world(view: &View, p: Point3) -> Place {
+    let (exact, rounded) = (view.to_world(p), p.to_array());
+    std::array::from_fn(|i| Metres::short(exact[i], rounded[i]))
+}
+
+fn of(s: Spectrum) -> Rgb {
+    rgb(Basis::Rgb.to_rgb(s))
+}

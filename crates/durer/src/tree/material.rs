@@ -1,0 +1,87 @@
+//! What a surface does with light, as the document tells it.
+use crate::{
+    Scene,
+    model::{
+        bsdf::{FresnelView, LobeView},
+        texture::{Looked, TextureLookup},
+    },
+    probe::{Choice, ChosenBy, TreeMedia},
+    spectrum::{Basis, Spectrum},
+};
+
+use super::{
+    document::{Body, Drawn, Fresnel, Lobe, Lookup, Media},
+    number::{Number, Rgb, rgb},
+};
+
+fn of(s: Spectrum) -> Rgb {
+    rgb(Basis::Rgb.to_rgb(s))
+}
+
+pub(super) fn media(scene: &Scene, media: &TreeMedia) -> Media {
+    let body = |id| {
+        let medium = scene.media.get(id);
+        let fills = |o: &&crate::Object| scene.media.of_material(o.material) == Some(id);
+        let object = scene.objects.iter().find(fills).map(|o| o.name.clone());
+        Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta) }
+    };
+    Media {
+        before: media.before.iter().map(body).collect(),
+        after: media.after.iter().map(body).collect(),
+        n1: Number(media.n1),
+        n2: Number(media.n2),
+    }
+}
+
+pub(super) fn fresnel(view: &FresnelView) -> Fresnel {
+    Fresnel {
+        reflect: Number(view.reflect),
+        transmit: Number(view.transmit),
+        critical_angle: view.critical_angle.map(|a| Number(a.to_degrees())),
+        tir: view.is_total,
+        constant: view.is_constant,
+        eta: Number(view.eta),
+    }
+}
+
+pub(super) fn lobe(view: &LobeView) -> Lobe {
+    Lobe {
+        name: view.name.to_owned(),
+        reflectance: of(view.reflectance),
+        transmittance: of(view.transmittance),
+        exponent: view.exponent.map(Number),
+        alpha: view.alpha.map(Number),
+    }
+}
+
+pub(super) fn drawn(choice: &Choice) -> Drawn {
+    let from = match choice.by {
+        ChosenBy::Light => "light",
+        ChosenBy::Sharp => "sharp",
+        ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
+    };
+    Drawn {
+        from: from.to_owned(),
+        lobe: choice.lobe.map(str::to_owned),
+        rays: choice.rays,
+        pdf: choice.pdf.map(Number),
+        other_pdf: choice.other_pdf.map(Number),
+        mis: choice.mis.map(Number),
+        f: choice.f.map(of),
+        cos: choice.cos.map(Number),
+    }
+}
+
+pub(super) fn lookups(scene: &Scene, log: &[TextureLookup]) -> Vec<Lookup> {
+    let lookup = |l: &TextureLookup| Lookup {
+        name: scene.texture_names.get(l.texture as usize).cloned().unwrap_or_default(),
+        uv: [l.uv.x, l.uv.y].map(Number),
+        value: match l.value {
+            Looked::Color(color) => color.rgb.map(Number).to_vec(),
+            Looked::Number(v) => vec![Number(v)],
+        },
+        footprint: None,
+        level: None,
+    };
+    log.iter().map(lookup).collect()
+}

@@ -1,0 +1,202 @@
+// The document that the page holds: what `durer trace` writes, version 1. What is absent is null or left out.
+
+export type Vec3 = [number, number, number];
+export type Rgb = [number, number, number];
+
+export type Kind =
+  | "eye" | "shadow" | "reflection" | "refraction" | "glossy-reflection" | "glossy-refraction" | "passing"
+  | "diffuse-bounce" | "environment" | "light-sample" | "bsdf-sample" | "connection" | "photon";
+
+export interface LightFact {
+  index: number;
+  name: string | null;
+  point: Vec3 | null;
+  visible: boolean;
+  passed?: Rgb;
+  unoccluded: Rgb;
+}
+
+export interface Body { object: string; priority?: number | null; ior: number }
+
+export interface Lobe {
+  name: string;
+  reflectance?: Rgb | null;
+  transmittance?: Rgb | null;
+  exponent?: number | null;
+  alpha?: number | null;
+}
+
+export interface Drawn {
+  from: string;
+  pdf?: number | null;
+  other_pdf?: number | null;
+  mis?: number | null;
+  f?: Rgb | null;
+  cos?: number | null;
+  lobe?: string | null;
+  /** Rays among which the light is shared. */
+  rays?: number | null;
+}
+
+export interface TextureLookup {
+  name: string;
+  uv: [number, number];
+  value: number[];
+  footprint?: number | null;
+  level?: number | null;
+}
+
+export interface WalkedBox { box: [Vec3, Vec3]; depth: number; hit: boolean }
+
+export interface Tests {
+  boxes: number;
+  primitives: number;
+  triangles?: number;
+  shapes?: number;
+  curves?: number;
+  points?: number;
+}
+
+/** One ray. */
+export interface Node {
+  id: number;
+  parent: number | null;
+  kind: Kind;
+  depth: number;
+  origin: Vec3;
+  direction: Vec3;
+  t: number | null;
+  point: Vec3 | null;
+  object: string | null;
+  primitive: number | null;
+  normal: Vec3 | null;
+  uv: [number, number] | null;
+  side: "outside" | "inside" | null;
+  weight: Rgb;
+  throughput: Rgb;
+  local: Rgb;
+  contribution: Rgb;
+  result: Rgb;
+  stop: string | null;
+  lost: Rgb;
+  light: LightFact | null;
+  blocker: string | null;
+  tests?: Tests | null;
+  instance?: number | null;
+  material?: string | null;
+  geometric_normal?: Vec3 | null;
+  barycentric?: Vec3 | null;
+  triangle?: [Vec3, Vec3, Vec3] | null;
+  cos?: number | null;
+  time?: number | null;
+  media?: { before?: Body[] | null; after?: Body[] | null; n1: number; n2: number } | null;
+  fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean; constant?: boolean | null; eta?: number | null } | null;
+  lobes?: Lobe[] | null;
+  drawn?: Drawn | null;
+  arrived?: Rgb | null;
+  emission?: Rgb | null;
+  ambient?: Rgb | null;
+  blurred_sky?: Rgb | null;
+  random?: { dim: string; u: number[] }[] | null;
+  sampler?: string | null;
+  textures?: TextureLookup[] | null;
+  limit?: { value: number; threshold: number } | null;
+  ns?: number | null;
+  walk?: WalkedBox[] | null;
+}
+
+/** What another way of tracing changes in a sample, as the program found it. */
+export interface Diff {
+  options: string;
+  summary: string;
+  removed?: number[] | null;
+  added?: number[] | null;
+  changed?: { before: number; after: number; keys: string[] }[] | null;
+  pairs?: [number, number][] | null;
+}
+
+/** The rays of one pixel sample, parents before children. */
+export interface Tree {
+  version: number;
+  scene: string;
+  integrator: string;
+  width: number;
+  height: number;
+  pixel: [number, number];
+  sample: number;
+  rgb: Rgb;
+  nodes: Node[];
+  samples?: number | null;
+  durer?: string | null;
+  antialias?: string | null;
+  filter_weight?: number | null;
+  film?: [number, number] | null;
+  lens?: [number, number] | null;
+  time?: number | null;
+  rules?: Record<string, unknown> | null;
+  killed?: Rgb | null;
+  max_radiance?: number | null;
+  diff?: Diff | null;
+}
+
+export interface PackedMesh {
+  origin: Vec3;
+  scale: number | Vec3;
+  positions: string;
+  indices: string;
+  wide: boolean;
+}
+
+export interface SceneObject {
+  name: string;
+  material: string | null;
+  color: Rgb;
+  emits: boolean;
+  mesh: PackedMesh | null;
+  copies?: number[][] | null;
+  /** One for each copy, where they differ. */
+  names?: string[] | null;
+  sphere?: { center: Vec3; radius: number } | null;
+  plane?: boolean | null;
+}
+
+export interface SceneLight {
+  index: number;
+  name: string | null;
+  kind: string;
+  point: Vec3 | null;
+  direction: Vec3 | null;
+  color: Rgb | null;
+}
+
+export interface Camera {
+  eye: Vec3;
+  right: Vec3;
+  up: Vec3;
+  look: Vec3;
+  fov_x: number;
+  fov_y: number;
+  kind: string;
+}
+
+export interface Scene {
+  name: string;
+  bounds: [Vec3, Vec3] | null;
+  camera: Camera;
+  objects: SceneObject[];
+  lights: SceneLight[];
+}
+
+export interface SampleDims { film?: [number, number] | null; lens?: [number, number] | null; time?: number | null }
+
+/** All that the page shows. */
+export interface Page {
+  version: number;
+  trees: Tree[];
+  other: { options: string; trees: Tree[] } | null;
+  values: Rgb[];
+  dims: SampleDims[];
+  mean: Rgb;
+  picture: { png: string; width: number; height: number } | null;
+  scene: Scene;
+}

@@ -1,0 +1,57 @@
+// Opens the page: reads the document inside it, restores the state of the address, mounts the views.
+import { effect } from "@preact/signals";
+import { render } from "preact";
+
+import { load, NothingToShow } from "./data/load";
+import type { Viewer } from "./scene/viewer";
+import { keepHash, readHash } from "./state/hash";
+import { listen } from "./state/keys";
+import { createStore, runPlayback, type Store } from "./state/store";
+import "./style/base.css";
+import "./style/layout.css";
+import "./style/panels.css";
+import { announce } from "./ui/announce";
+import { App } from "./ui/App";
+
+/** For the browser's console: the store and the 3D view. */
+declare global {
+  interface Window { durer?: { store: Store; viewer: Viewer | null } }
+}
+
+function followTheme(store: Store): void {
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const apply = (): void => {
+    store.dark.value = store.theme.value === "auto" ? system.matches : store.theme.value === "dark";
+    document.documentElement.dataset["theme"] = store.dark.value ? "dark" : "light";
+  };
+  system.addEventListener("change", apply);
+  effect(apply);
+}
+
+async function open(): Promise<void> {
+  const host = document.getElementById("app")!;
+  const holder = document.getElementById("durer-data");
+  try {
+    const page = await load(holder?.textContent ?? "");
+    // The text has been read; a large one need not stay in memory.
+    holder?.remove();
+    const store = createStore(page);
+    const [x, y] = page.trees[0]!.pixel;
+    document.title = `${page.scene.name} (${x}, ${y}) – ray tree`;
+    readHash(store, location.hash);
+    followTheme(store);
+    keepHash(store);
+    runPlayback(store);
+    window.durer = { store, viewer: null };
+    listen(store, () => window.durer!.viewer);
+    announce(store);
+    host.textContent = "";
+    render(<App store={store} />, host);
+  } catch (error) {
+    if (!(error instanceof NothingToShow)) throw error;
+    host.textContent = "";
+    render(<p class="waiting" role="alert">{error.message}</p>, host);
+  }
+}
+
+void open();
