@@ -114,7 +114,11 @@ fn shadow_rays_toward_the_wrong_light_are_named() {
     // Both take the place of the other: seen from the middle, light in the zenith and light beside it.
     let (world, seen) = (lights("0 1 0", "4 3 0"), lights("4 3 0", "0 90 0"));
     let explanation = explained(&planted(&world, &seen, "whitted"), [16, 20]);
-    assert_names(&explanation, Law::ShadowRay, &["to light \"sun\"", "to light \"lamp\"", "it points to light \"sun\""]);
+    assert_names(
+        &explanation,
+        Law::ShadowRay,
+        &["to light \"sun\"", "to light \"lamp\"", "it points to light \"sun\""],
+    );
 }
 
 #[test]
@@ -155,7 +159,8 @@ fn glass(eta: f32) -> String {
 fn swapped_indices_of_refraction_are_named() {
     for integrator in ["whitted", "distributed"] {
         let explanation = explained(&planted(&glass(1.5), &glass(1.0 / 1.5), integrator), [18, 18]);
-        let words = ["refracted at \"ball\"", "sin a / sin b = 0.667, the media say 1.5: n1 and n2 are swapped"];
+        let words =
+            ["refracted at \"ball\"", "sin a / sin b = 0.667, the media say 1.5: n1 and n2 are swapped"];
         assert_names(&explanation, Law::Snell, &words);
     }
     // Near the rim the wrong ratio reflects all.
@@ -194,8 +199,7 @@ fn a_surface_that_makes_light_is_named() {
 
 /// The tree of a pixel with a mirror, a light and a floor.
 fn mirror_tree() -> (Prepared, RayTree) {
-    let world =
-        format!("{}Material \"mirror\"\nTranslate 0 1 0\n{BALL}", lights("0 1 -1", "2 3 0"));
+    let world = format!("{}Material \"mirror\"\nTranslate 0 1 0\n{BALL}", lights("0 1 -1", "2 3 0"));
     let prepared = scene(&text(&world), &options("whitted"));
     let tree = prepared.job().record([16, 19], 0).0;
     assert!(check(&prepared, &tree).is_empty());

@@ -1,9 +1,5 @@
 //! No false alarm: whatever is traced without a bug breaks no law.
-use durer::{
-    Distribution, Options, Prepared, Show, builtin,
-    explain::check,
-    integrator::Sampling,
-};
+use durer::{Distribution, Options, Prepared, Show, builtin, explain::check, integrator::Sampling};
 use durer_tests::{prepared, shared};
 
 /// Files of others: textures, instances, motion, holes, glass, clear coats, lights of every kind.
@@ -61,7 +57,12 @@ fn check_pixels(name: &str, prepared: &Prepared, pixels: u32) -> u32 {
         let pixel = [(x * f64::from(width)) as u32, (y * f64::from(height)) as u32];
         let (tree, _) = job.record(pixel, i % 4);
         let found = check(prepared, &tree);
-        assert!(found.is_empty(), "{name}, {}, {pixel:?}, sample {}: {found:#?}", prepared.integrator_name, i % 4);
+        assert!(
+            found.is_empty(),
+            "{name}, {}, {pixel:?}, sample {}: {found:#?}",
+            prepared.integrator_name,
+            i % 4
+        );
     }
     pixels
 }

@@ -46,6 +46,8 @@ pub struct Spread {
     pub deviation: f64,
     /// The sample of the largest luminance, and that.
     pub brightest: (u32, f64),
+    /// The sample of the smallest luminance, and that.
+    pub darkest: (u32, f64),
     /// Samples that are infinite or NaN: the film leaves them out.
     pub bad: Vec<u32>,
 }

@@ -62,7 +62,7 @@ impl Part {
             PartKind::BlurredSky => "the sky's blurred image in its gloss".to_owned(),
             PartKind::Sky => "the sky".to_owned(),
             PartKind::Light => format!("light of \"{name}\""),
-            PartKind::Shading => "light of the lamps, shadows left out".to_owned(),
+            PartKind::Shading => "light of the lamps (shadows left out)".to_owned(),
             PartKind::Albedo => "the colour of the material".to_owned(),
             PartKind::Reflection => "the mirrored ray".to_owned(),
             PartKind::Refraction => "the refracted ray".to_owned(),

@@ -53,6 +53,11 @@ pub(super) fn spread(samples: &[Sample]) -> Spread {
     Spread {
         deviation: variance.sqrt(),
         brightest: brightest.unwrap_or((0, 0.0)),
+        darkest: lights
+            .iter()
+            .copied()
+            .reduce(|best, v| if v.1 < best.1 { v } else { best })
+            .unwrap_or((0, 0.0)),
         bad: samples.iter().filter(|s| !s.is_finite()).map(|s| s.number).collect(),
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn percent(share: f64) -> String {
         0.0 => "0 %".to_owned(),
         a if a < 0.05 => "less than 0.1 %".to_owned(),
         a if a < 9.95 => format!("{} %", trimmed(&format!("{p:.1}"))),
-        a if a > 99.0 && a < 100.0 => format!("{p:.1} %"),
+        a if a > 99.0 && a < 99.95 => format!("{p:.1} %"),
         _ => format!("{p:.0} %"),
     }
 }
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn shares_are_rounded_as_people_do() {
-        let all = [0.0, 0.0001, 0.012, 0.0996, 0.5, 0.9999, 1.0].map(percent);
-        assert_eq!(all, ["0 %", "less than 0.1 %", "1.2 %", "10 %", "50 %", "100.0 %", "100 %"]);
+        let all = [0.0, 0.0001, 0.012, 0.0996, 0.5, 0.997, 0.9999].map(percent);
+        assert_eq!(all, ["0 %", "less than 0.1 %", "1.2 %", "10 %", "50 %", "99.7 %", "100 %"]);
     }
 }

@@ -1,10 +1,11 @@
 //! Sentences about a surface that a ray met, or about a ray that met none.
+use crate::model::bsdf::LobeView;
 use crate::probe::{RayKind, StopReason, TreeHit, TreeNode, TreeShading};
 
 use super::{
     super::{
         bodies::present,
-        part::is_straight,
+        part::{is_cast, is_straight},
         words::{color, degrees_of, light, list, number, percent, rgb},
     },
     Teller,
@@ -28,6 +29,9 @@ impl Teller<'_> {
         }
         sentences.extend(self.absorbed(node, hit, shading));
         sentences.extend(self.own(node, hit, shading));
+        if is_cast(self.prepared) {
+            sentences.extend(self.cast(node, shading));
+        }
         sentences.extend(self.lights(index));
         sentences.extend(self.interface(index, hit, shading));
         sentences.extend(self.branches(index));
@@ -40,7 +44,12 @@ impl Teller<'_> {
         let ray = self.ray(index);
         let Some(hit) = &node.hit else {
             let result = light(node.result);
-            return format!("{ray} leaves the scene without meeting anything and sees the sky: {result}.");
+            return match node.result.is_black() {
+                true => format!("{ray} leaves the scene without meeting anything, and nothing shines there."),
+                false => {
+                    format!("{ray} leaves the scene without meeting anything and sees the sky: {result}.")
+                }
+            };
         };
         let object = self.prepared.scene.object(hit.object);
         let material = self.prepared.material_name(object.material);
@@ -73,6 +82,22 @@ impl Teller<'_> {
             _ => String::new(),
         };
         format!("The {what} (ray {index}, bounce {}){brings}", node.depth)
+    }
+
+    /// What ray casting makes of a hit, of which it follows no ray.
+    fn cast(&self, node: &TreeNode, shading: &TreeShading) -> Option<String> {
+        if self.prepared.rules.get("show").and_then(|v| v.as_str()) == Some("albedo") {
+            return Some(format!("The picture shows the colour of the material: {}.", light(node.local)));
+        }
+        let parts = [shading.emission, shading.ambient, shading.blurred_sky].map(rgb);
+        let all = rgb(node.local);
+        let lamps: [f64; 3] =
+            std::array::from_fn(|i| (all[i] - parts.iter().map(|p| p[i]).sum::<f64>()).max(0.0));
+        Some(format!(
+            "Ray casting follows no more rays: the lamps add {}{}, whatever stands in their way.",
+            color(lamps),
+            self.of_pixel(lamps)
+        ))
     }
 
     /// Absorption on the way of a ray to its hit.
@@ -198,8 +223,12 @@ impl Teller<'_> {
         let of = self.of_pixel(std::array::from_fn(|i| share[i] * r[i]));
         let meets = match &node.hit {
             Some(hit) => format!("meets \"{}\"", self.prepared.scene.object(hit.object).name),
+            None if node.result.is_black() => "leaves the scene".to_owned(),
             None => "leaves for the sky".to_owned(),
         };
+        if node.result.is_black() || node.weight.is_black() {
+            return format!("{what} {meets} and brings nothing.");
+        }
         let drawn = self.drawn(node);
         if self.share(node) < WORTH && self.whole > 0.0 {
             return format!("{what} {meets} and brings {weight} x {} = {}{of}.", color(r), color(product));
@@ -250,7 +279,7 @@ impl Teller<'_> {
 
 /// The lobes in words.
 fn lobes(shading: &TreeShading) -> Vec<String> {
-    let of = |l: &crate::model::bsdf::LobeView| {
+    let of = |l: &LobeView| {
         let [r, t] = [l.reflectance, l.transmittance].map(light);
         match l.name {
             "diffuse" => format!("diffuse kd {r}"),
@@ -263,5 +292,6 @@ fn lobes(shading: &TreeShading) -> Vec<String> {
             name => name.to_owned(),
         }
     };
-    shading.lobes.iter().map(of).collect()
+    let counts = |l: &&LobeView| !l.reflectance.is_black() || !l.transmittance.is_black();
+    shading.lobes.iter().filter(counts).map(of).collect()
 }

@@ -16,6 +16,8 @@ use super::{
 
 /// Rays to one light that are told of one by one.
 const RAYS: usize = 1;
+/// Share in the sample of what is not worth a formula.
+const NOTHING: f64 = 1e-3;
 
 impl Teller<'_> {
     /// All lights at a hit, those that bring most first.
@@ -48,12 +50,15 @@ impl Teller<'_> {
                 (0..3).for_each(|i| sum[i] += share[i] * result[i]);
                 sum
             });
-            sentences.push(format!(
-                "In all {lit} of {} see \"{name}\" and bring {}{}.",
-                counted(rays.len(), "shadow ray"),
-                color(sum),
-                self.of_pixel(sum)
-            ));
+            sentences.push(match lit {
+                0 => format!("Nor does any other of its {} arrive.", counted(rays.len(), "shadow ray")),
+                _ => format!(
+                    "In all, {lit} of {} reach \"{name}\" and bring {}{}.",
+                    counted(rays.len(), "shadow ray"),
+                    color(sum),
+                    self.of_pixel(sum)
+                ),
+            });
         }
         sentences
     }
@@ -96,13 +101,13 @@ impl Teller<'_> {
             Some(_) => format!("from {} m, ", number(node.d.to_f64().length())),
             None => String::new(),
         };
-        let adds = rgb(node.weight * node.result);
-        let share = rgb(node.throughput * node.result);
-        if adds == [0.0; 3] {
+        if self.share(node) < NOTHING && (self.whole > 0.0 || node.weight.is_black()) {
             return format!(
-                "Light \"{name}\" arrives ({far}{off} degrees off the normal), but nothing of it goes this way."
+                "Light \"{name}\" arrives {far}{off} degrees off the normal, but next to nothing of it goes this way."
             );
         }
+        let adds = rgb(node.weight * node.result);
+        let share = rgb(node.throughput * node.result);
         format!(
             "Light \"{name}\" arrives {far}{off} degrees off the normal: {} = {}{}.",
             self.formula(parent, node, shading, (n, wi)),

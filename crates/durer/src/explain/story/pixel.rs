@@ -10,6 +10,8 @@ use super::super::{
 
 /// Parts below this share are not named.
 const WORTH: f64 = 0.01;
+/// Below this nothing is said of them together either.
+const LEAST: f64 = 0.005;
 
 /// What the pixel is, and of what it is made.
 pub(super) fn summary(
@@ -61,11 +63,16 @@ fn parts(explanation: &Explanation) -> String {
         return format!("All of it is {}.", only.words());
     }
     let (named, others): (Vec<&Part>, Vec<&Part>) = explanation.parts.iter().partition(|p| p.share >= WORTH);
+    if let ([only], true) = (named.as_slice(), others.iter().map(|p| p.share).sum::<f64>() < LEAST) {
+        return format!("Nearly all of it is {}.", only.words());
+    }
     let mut items: Vec<String> =
         named.iter().map(|p| format!("{} {}", percent(p.share), describe(p))).collect();
     if !others.is_empty() {
         let rest: f64 = others.iter().map(|p| p.share).sum();
-        items.push(format!("{} of other light", percent(rest)));
+        if rest >= LEAST {
+            items.push(format!("{} is other light", percent(rest)));
+        }
     }
     format!("Of this light {}.", list(&items))
 }
@@ -103,17 +110,19 @@ pub(super) fn samples(
         sentences.push(format!("Of {count} samples {} see {}.", seen_total(&seen), list(&items)));
     }
     for light in survey::lights(prepared, samples) {
-        sentences.extend(visibility(&light));
+        sentences.extend(visibility(&light, count));
     }
     let mean = luminance(explanation.rgb);
     let finite: Vec<_> = samples.iter().filter(|s| s.is_finite()).collect();
     if mean > 0.0 && finite.len() > 1 && spread.deviation > 0.02 * mean {
         let (sample, brightest) = spread.brightest;
-        let times = brightest / mean;
+        let (least, times) = (spread.darkest.1 / mean, brightest / mean);
         sentences.push(format!(
-            "The samples' brightness varies by {} of the mean; the brightest, sample {sample}, has {} times the mean{}.",
-            percent(spread.deviation / mean),
+            "The samples are {} to {} times as bright as the pixel, with a deviation of {}; the brightest is sample \
+             {sample}{}.",
+            number(least),
             number(times),
+            percent(spread.deviation / mean),
             if times > 10.0 { ": a firefly" } else { "" }
         ));
     }
@@ -137,21 +146,24 @@ fn seen_total(seen: &[(Option<String>, usize)]) -> &'static str {
 }
 
 /// How many samples a light reaches, if not all or none are the same.
-fn visibility(seen: &survey::Seen) -> Option<String> {
-    if seen.asked < 2 || seen.lit == seen.asked || seen.blockers.is_empty() {
+fn visibility(seen: &survey::Seen, samples: usize) -> Option<String> {
+    if seen.asked < 2
+        || seen.lit == seen.asked
+        || seen.blockers.is_empty()
+        || (seen.lit == 0 && seen.blockers.len() == 1)
+    {
         return None;
     }
     let blockers: Vec<String> = seen.blockers.iter().take(3).map(|(name, _)| format!("\"{name}\"")).collect();
     let (light, lit, asked) = (&seen.light, seen.lit, seen.asked);
+    let whom = match asked == samples {
+        true => counted(asked, "sample"),
+        false => format!("the {} that ask it", counted(asked, "sample")),
+    };
     Some(match lit {
-        0 => format!(
-            "Light \"{light}\" reaches none of {}: {} in its way.",
-            counted(asked, "sample"),
-            stand(&blockers)
-        ),
+        0 => format!("Light \"{light}\" reaches none of {whom}: {} in its way.", stand(&blockers)),
         _ => format!(
-            "Light \"{light}\" reaches {lit} of {asked} samples ({}): the pixel lies in its half-shadow, as {} in the \
-             way of the others.",
+            "Light \"{light}\" reaches {lit} of {whom} ({}): its half-shadow, as {} in the way of the others.",
             percent(lit as f64 / asked as f64),
             stand(&blockers)
         ),

@@ -41,7 +41,7 @@ pub(super) fn cut(prepared: &Prepared, samples: &[Sample], explanation: &Explana
     let rule = |name: &str| prepared.rules.get(name).map(ToString::to_string).unwrap_or_default();
     match of(StopReason::DepthLimit) {
         0 => {}
-        n => why.push(format!("{n} at the depth limit of {} bounces", rule("max_depth"))),
+        n => why.push(format!("{n} at the depth limit of {}", bounces(&rule("max_depth")))),
     }
     match of(StopReason::ContributionBelowCutoff) {
         0 => {}
@@ -54,29 +54,47 @@ pub(super) fn cut(prepared: &Prepared, samples: &[Sample], explanation: &Explana
         0 => {}
         n => why.push(format!("{n} as the record was full")),
     }
-    let missing = explanation.missing;
+    let count = match nodes.len() {
+        1 => "1 ray was".to_owned(),
+        n => format!("{n} rays were"),
+    };
+    let why = match why.as_slice() {
+        [only] => only.split_once(' ').map_or(only.clone(), |(_, reason)| format!(" {reason}")),
+        many => format!(": {}", list(many)),
+    };
+    let sentences = vec![format!("{count} given up{why}."), bound(samples, explanation)];
+    Some(Paragraph { about: "cut", node: None, is_detail: false, sentences })
+}
+
+/// What rays that were given up could have brought.
+fn bound(samples: &[Sample], explanation: &Explanation) -> String {
+    let (missing, most) = (explanation.missing, survey::brightest(samples));
     let whole = luminance(explanation.rgb);
+    if most == 0.0 {
+        let sum: f64 = samples.iter().map(|s| luminance(survey::cut_share(&s.tree))).sum();
+        return format!(
+            "They would have had {} of the {}; nothing that was seen tells how bright what they lead to is.",
+            percent(sum / samples.len().max(1) as f64),
+            of_what(samples)
+        );
+    }
     let share = match whole > 0.0 {
         true => format!(", {} of the {}", percent(luminance(missing) / whole), of_what(samples)),
         false => String::new(),
     };
-    let sentences = vec![
-        format!(
-            "{} given up: {}.",
-            if nodes.len() == 1 { "1 ray was".to_owned() } else { format!("{} rays were", nodes.len()) },
-            list(&why)
-        ),
-        format!(
-            "If nothing in the scene is brighter than the {} that was seen, they could have added {} at most{share}.",
-            number(survey::brightest(samples)),
-            color(missing)
-        ),
-    ];
-    Some(Paragraph { about: "cut", node: None, is_detail: false, sentences })
+    format!(
+        "If nothing in the scene is brighter than the {} that was seen, they could have added {} at most{share}.",
+        number(most),
+        color(missing)
+    )
 }
 
 fn of_what(samples: &[Sample]) -> &'static str {
     if samples.len() > 1 { "pixel" } else { "sample" }
+}
+
+fn bounces(n: &str) -> String {
+    if n == "1" { "1 bounce".to_owned() } else { format!("{n} bounces") }
 }
 
 /// The share at which rays are given up, as the rays say if the rules do not.
