@@ -71,6 +71,10 @@ impl<'a> Teller<'a> {
         let (share, result) = (rgb(node.throughput), rgb(node.result));
         self.share_of(std::array::from_fn(|i| share[i] * result[i]))
     }
+    /// What makes a ray worth following: what it brings, or could have brought if nothing comes from anywhere.
+    fn rank(&self, node: &TreeNode) -> f64 {
+        if self.whole > 0.0 { self.share(node) } else { luminance(rgb(node.throughput)) }
+    }
     fn share_of(&self, v: [f64; 3]) -> f64 {
         if self.whole > 0.0 { luminance(v) / self.whole } else { 0.0 }
     }
@@ -95,7 +99,7 @@ impl<'a> Teller<'a> {
             if paragraphs.len() >= MOST_SURFACES {
                 break;
             }
-            let is_worth = index == 0 || self.share(node) >= WORTH;
+            let is_worth = index == 0 || self.rank(node) >= WORTH;
             let is_detail = !(is_main && is_worth && told < SURFACES);
             told += usize::from(!is_detail);
             paragraphs.push(Paragraph {
@@ -108,9 +112,9 @@ impl<'a> Teller<'a> {
                 .iter()
                 .map(|&c| c as usize)
                 .filter(|&c| self.node(c).kind != RayKind::Shadow && self.node(c).is_traced())
-                .filter(|&c| self.node(c).hit.is_some() && self.share(self.node(c)) >= WORTH_DETAIL)
+                .filter(|&c| self.node(c).hit.is_some() && self.rank(self.node(c)) >= WORTH_DETAIL)
                 .collect();
-            next.sort_by(|&a, &b| self.share(self.node(a)).total_cmp(&self.share(self.node(b))));
+            next.sort_by(|&a, &b| self.rank(self.node(a)).total_cmp(&self.rank(self.node(b))));
             let brightest = next.len().checked_sub(1);
             waiting.extend(
                 next.into_iter().enumerate().map(|(place, c)| (c, is_main && Some(place) == brightest)),
