@@ -25,6 +25,8 @@ function inline(): Plugin {
       }
       const rest = Object.keys(bundle).filter((name) => name !== "index.html");
       if (rest.length > 0) throw new Error(`files beside the page: ${rest.join(", ")}`);
+      const marker = ["__DURER", "DATA__"].join("_");
+      if (html.split(marker).length !== 2) throw new Error(`${marker} must stand in the page once`);
       page.source = html;
     },
   };

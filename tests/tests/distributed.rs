@@ -222,6 +222,7 @@ fn estimate(distribution: Distribution, samples: u32, min_contribution: f32) -> 
 fn nested(shadow: u32, gloss: u32, time: u32, lens: u32) -> Distribution {
     Distribution {
         shadow_rays: Some(shadow),
+        lights: None,
         gloss_rays: Some(gloss),
         time_samples: Some(time),
         lens_samples: Some(lens),

@@ -22,6 +22,8 @@ export interface Grove {
   hits: number[];
   /** Distance from the root in steps of the tree. */
   levels: number[];
+  /** The largest of `levels`. */
+  deepest: number;
 }
 
 export function grove(tree: Tree): Grove {
@@ -43,7 +45,8 @@ export function grove(tree: Tree): Grove {
   }
   const most = shares.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
   const hits = numberHits(nodes);
-  return { tree, nodes, children, sizes, shares, most, letters: letters(nodes, children, hits), hits, levels };
+  const deepest = levels.reduce((a, b) => Math.max(a, b), 0);
+  return { tree, nodes, children, sizes, shares, most, letters: letters(nodes, children, hits), hits, levels, deepest };
 }
 
 function numberHits(nodes: Node[]): number[] {

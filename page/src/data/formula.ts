@@ -113,7 +113,12 @@ function weight(g: Grove, node: Node): Formula | null {
     up.push(say(" / "), sym("rays"));
     down.push(say(" / "), val(num(rays)));
   }
-  const factor = ((d.cos ?? 1) * (d.mis ?? 1)) / ((d.from === "light" ? 1 : (d.pdf ?? 1)) * rays);
+  const chance = d.chance ?? 1;
+  if (chance < 1) {
+    up.push(say(" / "), sym("chance"));
+    down.push(say(" / "), val(num(chance)));
+  }
+  const factor = ((d.cos ?? 1) * (d.mis ?? 1)) / ((d.from === "light" ? 1 : (d.pdf ?? 1)) * rays * chance);
   const product = d.f ? (d.f.map((x) => x * factor) as Rgb) : null;
   const agrees = product !== null && nearRgb(product, node.weight);
   // What else went into it, as the share of light that is left on the way, is not repeated here.

@@ -36,6 +36,8 @@ export interface Drawn {
   lobe?: string | null;
   /** Rays among which the light is shared. */
   rays?: number | null;
+  /** Probability with which this light was chosen among all. */
+  chance?: number | null;
 }
 
 export interface TextureLookup {

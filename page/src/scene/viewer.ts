@@ -23,7 +23,7 @@ export type Look = "eye" | "all" | "hit" | "plane" | "machine";
 const MANY = 3000;
 
 /** Pixels of the circle around a marked hit. */
-const MARK_RADIUS = 74;
+const MARK_RADIUS = 112;
 
 export class Viewer {
   readonly space: Space;
@@ -280,7 +280,7 @@ export class Viewer {
     const step = this.store.step.peek();
     this.rays.at(step ?? 1e9, Math.max(this.grown, 0));
     const [width, height] = this.size;
-    if (this.marked) this.signs.group.scale.setScalar(this.rig.pixel(this.marked.at, height) * Math.min(MARK_RADIUS, height / 5));
+    if (this.marked) this.signs.group.scale.setScalar(this.rig.pixel(this.marked.at, height) * Math.min(MARK_RADIUS, height / 6));
     this.signs.group.visible = this.marked !== null && !this.rig.sits;
     this.renderer.render(this.scene, this.rig.camera);
     this.pace.drawn(now);

@@ -58,7 +58,7 @@ function Row({ store, id }: { store: Store; id: number }): JSX.Element {
       onClick={() => store.select(id)} onDblClick={() => store.fold(id, !closed)}
       onMouseEnter={() => (store.hovered.value = id)} onMouseLeave={() => (store.hovered.value = null)}
     >
-      <span class="indent" style={{ width: `${Math.min(g.levels[id]!, 16) * 13}px` }} />
+      <span class="indent" style={{ width: `${g.levels[id]! * Math.min(13, 110 / Math.max(g.deepest, 1))}px` }} />
       <span class={`turn ${branches ? "" : "leaf"} ${closed ? "" : "open"}`} aria-hidden="true"
         onClick={(event) => { event.stopPropagation(); store.fold(id, !closed); }}>{branches ? "▸" : ""}</span>
       <span class="letter" style={{ "--kind": cssOf(node.kind, store.palette.value) }}><i />{g.letters[id]}</span>

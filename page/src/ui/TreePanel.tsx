@@ -19,13 +19,13 @@ export function TreePanel({ store }: { store: Store }): JSX.Element {
         <label class="sort">by <select value={store.order.value} aria-label="Order of the tree" onChange={(event) => (store.order.value = event.currentTarget.value as Order)}>
           <option value="recorded">recursion</option><option value="contribution">contribution</option><option value="size">rays</option>
         </select></label>
-        <span class="folds">
-          <button type="button" title="Fold all" onClick={() => store.foldAll(true)}>fold</button>
-          <button type="button" title="Open all" onClick={() => store.foldAll(false)}>open</button>
-        </span>
       </div>
       {store.treeStyle.value === "slide" ? <Slide store={store} /> : <Outline store={store} />}
-      <p class="tally">{count(g.nodes.length)} rays{shown < g.nodes.length && `, ${count(shown)} of them not folded`}</p>
+      <div class="tally">
+        <span>{count(g.nodes.length)} rays{shown < g.nodes.length && `, ${count(shown)} shown`}</span>
+        <button type="button" title="Fold all" onClick={() => store.foldAll(true)}>fold</button>
+        <button type="button" title="Open all" onClick={() => store.foldAll(false)}>open</button>
+      </div>
     </div>
   );
 }

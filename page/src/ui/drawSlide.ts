@@ -26,7 +26,7 @@ export function draw(c: CanvasRenderingContext2D, size: [number, number], view: 
   };
   const level = (y: number): boolean => y * view.sy + view.y > -near && (y - STEP_Y) * view.sy + view.y < size[1] + near;
   const inSight = tree.placed.filter((p) => level(p.y));
-  const pen: Pen = { c, ink, store, words, onScreen };
+  const pen: Pen = { c, ink, store, words, crowded: view.sx < 0.8, onScreen };
   for (const { id } of inSight) edge(pen, id, size[0]);
   for (const { id } of inSight) {
     const [x, y] = onScreen(id);
@@ -39,6 +39,7 @@ interface Pen {
   ink: Ink;
   store: Store;
   words: boolean;
+  crowded: boolean;
   onScreen: (id: number) => [number, number];
 }
 
@@ -49,7 +50,7 @@ function presence(store: Store, id: number): number {
   return 1;
 }
 
-function edge({ c, ink, store, words, onScreen }: Pen, id: number, screen: number): void {
+function edge({ c, ink, store, words, crowded, onScreen }: Pen, id: number, screen: number): void {
   const g = store.g.value;
   const node = g.nodes[id]!;
   const [x1, y1] = onScreen(id);
@@ -87,7 +88,9 @@ function edge({ c, ink, store, words, onScreen }: Pen, id: number, screen: numbe
   // Letters near the lower end, where edges are apart.
   const t = from ? 0.58 : 0.4;
   const [mx, my] = [x0 + (x1 - x0) * t, y0 + (y1 - y0) * t];
-  const name = from ? g.letters[id]! : "eye";
+  // Where leaves are crowded the letter must do.
+  const brief = crowded && g.children[id]!.length === 0;
+  const name = !from ? "eye" : brief ? look.letter : g.letters[id]!;
   c.font = SERIF;
   c.textAlign = "center";
   c.textBaseline = "middle";

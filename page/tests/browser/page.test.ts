@@ -54,7 +54,7 @@ describe("the page", () => {
   it("shows the numbers of the JSON for every ray that is clicked", async () => {
     const opened = await open(browser, path, { hash: "#tree=outline" });
     for (const node of first.nodes) {
-      await opened.tab.locator(`#row-${node.id}`).click();
+      await opened.tab.locator(`#row-${node.id} .name`).click();
       await shows(opened.tab, node.id);
       expect(await fact(opened.tab, "result")).toBe(node.result.map(String).join("  "));
       expect(await fact(opened.tab, "throughput")).toBe(node.throughput.map(String).join("  "));

@@ -35,7 +35,7 @@ describe.skipIf(durer === "")("a page that durer writes", () => {
       expect(statSync(path).size).toBeLessThan(2_000_000);
       const { tab, requests, complaints } = await open(browser, path, { hash: "#tree=outline" });
       for (const node of tree.nodes.slice(0, 40)) {
-        await tab.locator(`#row-${node.id}`).click();
+        await tab.locator(`#row-${node.id} .name`).click();
         await tab.waitForSelector(`.inspector[data-node="${node.id}"]`);
         const shown = await tab.locator('.records [data-fact="result"]').first().textContent();
         expect(shown!.replace(/−/g, "-")).toBe(node.result.map(String).join("  "));

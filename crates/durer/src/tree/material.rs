@@ -64,6 +64,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
         from: from.to_owned(),
         lobe: choice.lobe.map(str::to_owned),
         rays: choice.rays,
+        chance: Number(choice.chance),
         pdf: choice.pdf.map(Number),
         other_pdf: choice.other_pdf.map(Number),
         mis: choice.mis.map(Number),

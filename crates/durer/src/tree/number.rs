@@ -38,8 +38,9 @@ impl Metres {
     /// whose origin is nearer: digits beyond mean nothing.
     pub fn short(exact: f64, rounded: f32) -> Self {
         let grain = f64::from(rounded.abs().next_up() - rounded.abs()) / 4.0;
-        // Moving the origin rounds too.
-        let grain = grain.max(exact.abs() * 4.0 * f64::EPSILON);
+        // Moving the origin rounds too, which is all that counts near the nearer one.
+        let moved = exact.abs() * f64::EPSILON;
+        let grain = if grain < moved { 16.0 * moved } else { grain };
         if !exact.is_finite() || grain <= 0.0 || !grain.is_finite() {
             return Self(exact);
         }

@@ -112,8 +112,10 @@ pub struct Choice {
     /// Weight of multiple importance sampling, 0 to 1: of a sampled light over all lobes, by what they reflect; of a drawn
     /// ray that of the emission of the light it met. `None` where there is one strategy.
     pub mis: Option<f32>,
-    /// Probability with which this light was chosen among all, 0 to 1; 1 where there was no choice.
+    /// Probability with which this light was chosen among all, above 0 up to 1; 1 where there was no choice.
     pub chance: f32,
+    /// The number that chose the light.
+    pub light_choice: Option<RandomNumbers>,
     /// How many rays share this one's place.
     pub rays: u32,
     /// The random numbers that decided; `None` if there was nothing to decide.
@@ -132,6 +134,7 @@ impl Choice {
             other_pdf: None,
             mis: None,
             chance: 1.0,
+            light_choice: None,
             rays: 1,
             random: None,
         }

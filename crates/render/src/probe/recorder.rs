@@ -117,7 +117,7 @@ impl Probe for Recorder<'_> {
             weight: ray.weight,
             throughput: ray.throughput,
             chosen,
-            random: chosen.and_then(|c| c.random).into_iter().collect(),
+            random: chosen.iter().flat_map(|c| c.light_choice.into_iter().chain(c.random)).collect(),
             local: Spectrum::BLACK,
             result: Spectrum::BLACK,
             hit: None,

@@ -21,6 +21,8 @@ pub(super) struct Aim {
     pub(super) part: u32,
     /// The probability that it was this light.
     pub(super) chance: f32,
+    /// The number that chose it.
+    pub(super) u: Option<f32>,
 }
 
 /// Whether a light has any.
@@ -48,7 +50,7 @@ impl<P: Probe> Walk<'_, P> {
             Lights::All => {
                 for light in scene.lamps.iter().map(|&light| light as usize) {
                     for part in 0..rays {
-                        let aim = Aim { light, part, chance: 1.0 };
+                        let aim = Aim { light, part, chance: 1.0, u: None };
                         let (added, extent) = self.aim(ray, (s, crossing), &aim, id);
                         radiance += added;
                         if extent == Extent::None {
@@ -63,7 +65,7 @@ impl<P: Probe> Walk<'_, P> {
                     let u = sampler.split(part, rays).d1(Dim::LightChoice);
                     let chosen = scene.choose_lamp(s.surface.p, ray.ray.time, u);
                     let Some((light, chance)) = chosen else { break };
-                    radiance += self.aim(ray, (s, crossing), &Aim { light, part, chance }, id).0;
+                    radiance += self.aim(ray, (s, crossing), &Aim { light, part, chance, u: Some(u) }, id).0;
                 }
             }
         }
@@ -78,7 +80,7 @@ impl<P: Probe> Walk<'_, P> {
         aim: &Aim,
         id: P::Id,
     ) -> (Spectrum, Extent) {
-        let Aim { light, part, chance } = *aim;
+        let Aim { light, part, chance, .. } = *aim;
         let sampler = self.part(ray.sampler.fork(LIGHT_BRANCH + light as u32), part);
         let Some((weight, sample)) = s.light(self.cx, light, &sampler, |pdf| self.seen(pdf * chance)) else {
             if P::ACTIVE {
@@ -87,7 +89,7 @@ impl<P: Probe> Walk<'_, P> {
             return (Spectrum::BLACK, Extent::Some);
         };
         if P::RECORDS {
-            self.report_light(s, &sampler, &sample, chance);
+            self.report_light(s, &sampler, &sample, aim);
         }
         let (extent, rays) = self.share(&sample);
         let weight = weight / (rays * chance);

@@ -92,12 +92,14 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// How the weight of the shadow ray comes about that is announced next. `sampler` gave the light its numbers.
-    pub(super) fn report_light(&mut self, s: &Shading, sampler: &Sampler, sample: &LightSample, chance: f32) {
+    pub(super) fn report_light(&mut self, s: &Shading, sampler: &Sampler, sample: &LightSample, aim: &Aim) {
+        let chance = aim.chance;
         let wi = s.frame.to_local(sample.wi);
         let f = s.bsdf.eval(s.wo_local, wi);
         let mut choice = Choice {
             by: ChosenBy::Light,
             chance,
+            light_choice: aim.u.map(|u| RandomNumbers::one(Dim::LightChoice, u)),
             lobe: None,
             f: Some(f),
             cos: Some(wi.z.abs()),
@@ -137,7 +139,7 @@ impl<P: Probe> Walk<'_, P> {
         sampler: &Sampler,
         id: P::Id,
     ) {
-        let Aim { light, part, chance } = *aim;
+        let Aim { light, part, chance, .. } = *aim;
         let Some(sample) = s.behind(self.cx, light, sampler) else { return };
         let (extent, rays) = self.share(&sample);
         if part > 0 && extent == Extent::None && self.rules.lights == Lights::All {
@@ -149,7 +151,7 @@ impl<P: Probe> Walk<'_, P> {
             false => StopReason::LightBehindSurface,
         };
         if P::RECORDS {
-            self.report_light(s, sampler, &sample, chance);
+            self.report_light(s, sampler, &sample, aim);
         }
         let weight = s.bsdf.eval(s.wo_local, wi) * (wi.z.abs() / (rays * chance));
         let weight = if weight.is_finite() { weight } else { Spectrum::BLACK };
@@ -191,6 +193,7 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.chosen(&Choice {
             by: ChosenBy::Lobe,
             chance: 1.0,
+            light_choice: None,
             lobe: lobe.map(|(_, lobe)| lobe.name()),
             f: (cos > 0.0).then(|| drawn.branch.weight * (drawn.pdf / cos)),
             cos: Some(cos),
