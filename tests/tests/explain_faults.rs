@@ -245,3 +245,51 @@ fn numbers_that_are_none_and_negative_light_are_named() {
     });
     assert!(found.iter().any(|f| f.0 == Law::Energy && f.1.contains("negative")), "{found:?}");
 }
+
+#[test]
+fn a_body_without_a_back_is_named() {
+    let world = format!(
+        "{}Material \"dielectric\" \"float eta\" 1.5\n\
+         Shape \"polygon\" \"string name\" \"pane\" \"point3 P\" [-2 0 0  2 0 0  2 3 0  -2 3 0]\n",
+        lights("0 1 -1", "2 3 0")
+    );
+    let sides = ["", "ReverseOrientation\n"].map(|turn| {
+        let prepared = scene(
+            &text(&world.replace(
+                "Shape \"polygon\" \"string name\" \"pane\"",
+                &format!("{turn}Shape \"polygon\" \"string name\" \"pane\""),
+            )),
+            &options("whitted"),
+        );
+        explained(&prepared, [16, 16])
+    });
+    let wrong: Vec<_> = sides.iter().filter(|e| !e.findings.is_empty()).collect();
+    assert_eq!(wrong.len(), 1, "one of its sides is an inside");
+    assert_names(wrong[0], Law::Media, &["leaves \"pane\" without having entered it", "is open"]);
+}
+
+/// What a tree of a glass ball breaks whose refracted ray was changed.
+fn broken_glass(change: impl FnOnce(&mut TreeNode)) -> Vec<(Law, String)> {
+    let prepared = scene(&text(&glass(1.5)), &options("whitted"));
+    let mut tree = prepared.job().record([18, 18], 0).0;
+    let refracted = tree.nodes.iter().position(|n| n.kind == RayKind::Refraction).expect("a refracted ray");
+    change(&mut tree.nodes[refracted]);
+    check(&prepared, &tree).into_iter().map(|f| (f.law, f.text)).collect()
+}
+
+#[test]
+fn shares_that_are_not_fresnels_are_named() {
+    let found = broken_glass(|node| node.weight = Spectrum::splat(0.04));
+    let said = found.iter().find(|f| f.0 == Law::Fresnel).map(|f| f.1.as_str()).unwrap_or_default();
+    assert!(
+        said.contains("must be transmitted (n1 = 1, n2 = 1.5") && said.ends_with("weighs 0.04"),
+        "{found:?}"
+    );
+    assert!(found.iter().all(|f| matches!(f.0, Law::Fresnel | Law::Sum)), "{found:?}");
+}
+
+#[test]
+fn rays_that_forget_the_body_they_entered_are_named() {
+    let found = broken_glass(|node| node.path.media = Default::default());
+    assert!(found.iter().any(|f| f.0 == Law::Media && f.1.contains("starts in other bodies")), "{found:?}");
+}

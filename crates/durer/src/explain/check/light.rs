@@ -26,15 +26,21 @@ impl Checked<'_> {
         let asked = LightCx { basis: Basis::Rgb, time: node.path.ray.time };
         let from = node.path.from;
         let d = unit(node.d);
-        let samples: Vec<DVec3> = (0..POINTS)
+        // A light that gives nothing here cannot say where it is.
+        let Some(middle) = light.sample(&asked, from, &Sampler::middle()) else { return };
+        // PERF: the points of lights with extent are only looked at where nothing of theirs lies on the ray.
+        if middle.pdf.is_some() && self.meets(node, event.light, event.point) {
+            return;
+        }
+        let points = if middle.pdf.is_some() { POINTS } else { 1 };
+        let samples: Vec<DVec3> = (0..points)
             .filter_map(|i| {
-                let sampler = Sampler::new(SamplerKind::Sobol, 1, [0, 0], i, POINTS);
+                let sampler = Sampler::new(SamplerKind::Sobol, 1, [0, 0], i, points);
                 light.sample(&asked, from, &sampler).map(|sample| toward(from, sample.point, unit(sample.wi)))
             })
             .collect();
-        // A light that gives nothing here cannot say where it is.
         let Some(off) = samples.iter().map(|wi| angle(d, *wi)).reduce(f64::min) else { return };
-        if off <= SAME + 3.0 * spread(&samples) || self.meets(node, event.light, event.point) {
+        if off <= SAME + 3.0 * spread(&samples) {
             return;
         }
         let name = self.prepared.scene.light_names.get(event.light as usize).cloned().unwrap_or_default();

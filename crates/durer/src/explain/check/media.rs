@@ -2,11 +2,13 @@
 use super::{Checked, Law};
 use crate::{
     Id, MediumStack,
-    math::Ray,
     model::Medium,
     probe::{NoProbe, RayKind, TreeHit, TreeNode},
     spectrum::Basis,
 };
+
+/// Surfaces looked at along a line.
+const MOST_SURFACES: usize = 64;
 
 fn count(stack: &MediumStack, medium: Id<Medium>) -> usize {
     stack.iter().filter(|id| *id == medium).count()
@@ -63,28 +65,22 @@ impl Checked<'_> {
         }
     }
 
-    /// Whether the surface is turned inside out, or open: looked for along the line of the ray, from outside of all.
+    /// Whether the surface is turned inside out, or open: a body that is turned inside out is left by its outside, further
+    /// along the line of the ray.
     fn why_unentered(&self, node: &TreeNode, hit: &TreeHit) -> String {
         let scene = &self.prepared.scene;
         let cx = crate::SampleCx { scene, basis: Basis::Rgb };
         let name = self.name(hit);
         let time = node.path.ray.time;
-        let mut ray = Ray { time, ..Ray::new(hit.p, node.d) };
-        // From the hit on: an open surface is met an odd number of times on its two sides, and a body that is turned
-        // inside out is entered from its inside.
+        let mut ray = scene.surface(&node.path.ray, &hit.hit).1.spawn(node.d, time);
         let mut later = Vec::new();
-        for _ in 0..64 {
-            let surface = scene.surface(&node.path.ray, &hit.hit).1;
-            if later.is_empty() {
-                ray = surface.spawn(node.d, time);
-            }
+        for _ in 0..MOST_SURFACES {
             let Some(next) = scene.closest(&cx, &ray, &mut NoProbe, ()) else { break };
             let (object, surface) = scene.surface(&ray, &next);
             if object == hit.object {
                 later.push(surface.is_outside(-ray.d));
             }
-            let d = ray.d;
-            ray = surface.spawn(d, time);
+            ray = surface.spawn(ray.d, time);
         }
         if later.first() == Some(&true) && later.len() % 2 == 1 {
             format!(
