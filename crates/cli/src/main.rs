@@ -7,6 +7,7 @@ mod completions;
 mod cost;
 mod draw;
 mod exit;
+mod explain;
 mod info;
 mod interrupt;
 mod load;
@@ -34,7 +35,8 @@ const EXAMPLES: &str = "\
 Examples:
   durer render                            the built-in scene, to whitted.png
   durer render room.glb -o room.exr       a file of your own, as linear floats
-  durer trace room.glb --pixel 320,240    why that pixel has its colour, ray by ray
+  durer trace room.glb --pixel 320,240    the rays that made that pixel, as a tree
+  durer explain room.glb --pixel 320,240  the same in words, with the formulas
   durer cost room.glb                     what its picture costs, and where to save
   durer draw room.glb                     its lines, to room.svg
   durer info room.glb                     what is in the file, and what is odd about it
@@ -58,6 +60,7 @@ struct Cli {
 enum Command {
     Render(Box<render::Args>),
     Trace(Box<trace::Args>),
+    Explain(Box<explain::Args>),
     Cost(Box<cost::Args>),
     Draw(Box<draw::Args>),
     Info(info::Args),
@@ -78,6 +81,7 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Info(args) => info::run(&args),

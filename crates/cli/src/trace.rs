@@ -178,7 +178,7 @@ impl Args {
 }
 
 /// Complains about a pixel that is none of the picture's.
-fn check_pixel(prepared: &Prepared, [x, y]: [u32; 2]) -> Result<(), WrongUsage> {
+pub(crate) fn check_pixel(prepared: &Prepared, [x, y]: [u32; 2]) -> Result<(), WrongUsage> {
     let view = &prepared.scene.view;
     if x < view.width && y < view.height {
         return Ok(());
@@ -192,7 +192,7 @@ fn check_pixel(prepared: &Prepared, [x, y]: [u32; 2]) -> Result<(), WrongUsage> 
 }
 
 /// Complains about a sample that the pixel does not have.
-fn check_sample(prepared: &Prepared, samples: &[Taken], sample: u32) -> Result<(), WrongUsage> {
+pub(crate) fn check_sample(prepared: &Prepared, samples: &[Taken], sample: u32) -> Result<(), WrongUsage> {
     let count = samples.len();
     if (sample as usize) < count {
         return Ok(());

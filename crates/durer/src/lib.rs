@@ -16,6 +16,7 @@
 pub mod builtin;
 pub mod cost;
 mod environment;
+pub mod explain;
 mod options;
 mod prepare;
 pub mod tree;

@@ -1,0 +1,92 @@
+//! No false alarm: whatever is traced without a bug breaks no law.
+use durer::{Distribution, Options, Prepared, Show, builtin, explain::check, integrator::Sampling};
+use durer_tests::{prepared, shared};
+
+/// Files of others: textures, instances, motion, holes, glass, clear coats, lights of every kind.
+const FILES: &[&str] = &[
+    "gltf/BoxInterleaved.glb",
+    "gltf/SimpleInstancing.glb",
+    "gltf/TextureCoordinateTest.glb",
+    "gltf/EmissiveStrengthTest.glb",
+    "gltf/AttenuationTest.glb",
+    "gltf/TransmissionTest.glb",
+    "gltf/TransmissionRoughnessTest.glb",
+    "gltf/NegativeScaleTest.glb",
+    "gltf/NormalTangentMirrorTest.glb",
+    "gltf/ClearCoatTest.glb",
+    "gltf/dispersion-test.glb",
+    "gltf/AlphaBlendModeTest.glb",
+    "pbrt/cornell-box-variants/smallpt.pbrt",
+    "pbrt/cornell-box-variants/cornell-box-specular.pbrt",
+    "pbrt/veach-mis/scene-v4.pbrt",
+    "obj/suzanne.obj",
+    "stl/teapot.stl",
+];
+
+fn settings() -> [Options; 4] {
+    let of = |integrator: &str, distribution: Distribution| Options {
+        integrator: Some(integrator.to_owned()),
+        width: Some(64),
+        samples: Some(4),
+        max_depth: Some(6),
+        distribution,
+        ..Options::default()
+    };
+    let distributed = |sampling, rays| Distribution {
+        shadow_rays: Some(rays),
+        gloss_rays: Some(rays),
+        sampling: Some(sampling),
+        ..Distribution::default()
+    };
+    let none = Distribution::default();
+    [
+        of("whitted", none),
+        of("distributed", distributed(Sampling::Shared, 4)),
+        Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
+        Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
+    ]
+}
+
+/// Checks so many pixels of a scene, spread over the picture; how many that were.
+fn check_pixels(name: &str, prepared: &Prepared, pixels: u32) -> u32 {
+    let (width, height) = (prepared.scene.view.width, prepared.scene.view.height);
+    let job = prepared.job();
+    for i in 0..pixels {
+        // Points of the plane by two irrational numbers.
+        let [x, y] = [0.754_877_67f64, 0.569_840_3].map(|a| (f64::from(i) * a + 0.5).fract());
+        let pixel = [(x * f64::from(width)) as u32, (y * f64::from(height)) as u32];
+        let (tree, _) = job.record(pixel, i % 4);
+        let found = check(prepared, &tree);
+        assert!(
+            found.is_empty(),
+            "{name}, {}, {pixel:?}, sample {}: {found:#?}",
+            prepared.integrator_name,
+            i % 4
+        );
+    }
+    pixels
+}
+
+#[test]
+fn no_law_is_broken_in_the_built_in_scenes() {
+    let mut pixels = 0;
+    for scene in builtin::SCENES {
+        for options in settings() {
+            let prepared = prepared(scene.import(), &options);
+            pixels += check_pixels(scene.name, &prepared, 16);
+        }
+    }
+    assert!(pixels >= 500, "{pixels}");
+}
+
+#[test]
+fn no_law_is_broken_in_files_of_others() {
+    let Some(shared) = shared("no_law_is_broken_in_files_of_others") else { return };
+    for file in FILES {
+        for options in settings() {
+            let path = shared.join("assets").join(file);
+            let prepared = prepared(durer::open(&path.to_string_lossy()), &options);
+            check_pixels(file, &prepared, 12);
+        }
+    }
+}
