@@ -34,7 +34,7 @@ fn options_of_other_commands_and_misspelt_ones_are_recognised() {
     let place = Place::new().with("ball.pbrt", BALL);
     for (words, said) in [
         ("info ball.pbrt --width 64", "info has no --width; render, trace"),
-        ("render --pixel 3,3", "render has no --pixel; trace has"),
+        ("render --pixel 3,3", "render has no --pixel; trace and explain have"),
         ("render --smaples 4", "did you mean '--spp'?"),
         ("render -spp 4", "did you mean '--spp'?"),
         ("--width 64 render", "options follow the command: durer render --width"),

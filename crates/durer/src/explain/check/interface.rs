@@ -96,7 +96,7 @@ impl Checked<'_> {
         Some(Sides { n1, n2, cos, sin })
     }
 
-    /// Whether the direction of a refracted ray breaks Snell's law.
+    /// Whether the direction of a refracted ray, or that there is none, breaks Snell's law.
     fn snell(
         &mut self,
         number: usize,
@@ -104,64 +104,19 @@ impl Checked<'_> {
         child: &TreeNode,
         sides: &Sides,
     ) -> bool {
+        if sides.is_critical() {
+            return false;
+        }
         let name = self.name(hit);
-        let media = sides.n2 / sides.n1;
-        let sin_behind = sides.sin_behind();
-        let indices = format!("n1 = {}, n2 = {}", words::number(sides.n1), words::number(sides.n2));
-        let a = words::degrees(sides.sin.asin());
-        if child.stop == Some(StopReason::TirNoRefraction) {
-            if sin_behind < 1.0 && !sides.is_critical() {
-                let sine = words::number(sin_behind);
-                let swapped = if sides.sin * media > 1.0 { "; n1 and n2 are swapped" } else { "" };
-                let text = format!(
-                    "at \"{name}\" all light is said to be reflected inside, but {indices} at {a} degrees give \
-                     sin b = {sine}{swapped}"
-                );
-                self.add(Law::Snell, number, &name, text);
-                return true;
-            }
-            return false;
-        }
-        let [n_g, n_s] = [hit.n_g, hit.n_s].map(|n| unit(Vector3::from(n)));
-        let (d, out) = (unit(node.d), unit(child.d));
-        let Some(expected) = refracted(d, n_s, sides) else {
-            if sides.is_critical() {
-                return false;
-            }
-            let text = format!(
-                "a ray is refracted at \"{name}\" where all light must be reflected: {indices} at {a} degrees give \
-                 sin b = {}{}",
-                words::number(sin_behind),
-                if sides.sin * media < 1.0 { "; n1 and n2 are swapped" } else { "" }
-            );
+        let wrong = match child.stop {
+            Some(StopReason::TirNoRefraction) => sides.wrongly_reflected(&name),
+            _ => sides.wrongly_refracted(&name, (node, hit), child),
+        };
+        let is_wrong = wrong.is_some();
+        if let Some(text) = wrong {
             self.add(Law::Snell, number, &name, text);
-            return true;
-        };
-        let stays = (expected.dot(n_g) > 0.0) != (d.dot(n_g) > 0.0);
-        let expected = if stays { expected - n_g * (2.0 * n_g.dot(expected)) } else { expected };
-        let off = angle(out, expected);
-        if off <= TOLERANCE || sides.is_critical() {
-            return false;
         }
-        let sin_out = n_s.cross(out).length();
-        let ratio = sides.sin / sin_out;
-        let measured = if sides.sin > SMALL && sin_out > SMALL {
-            let is_swapped = (ratio * media - 1.0).abs() < 0.01;
-            let swapped = if is_swapped { ": n1 and n2 are swapped" } else { "" };
-            format!(
-                "sin a / sin b = {}, the media say {}{swapped}",
-                words::number(ratio),
-                words::number(media)
-            )
-        } else {
-            format!("the media say sin a / sin b = {}", words::number(media))
-        };
-        let text = format!(
-            "the ray refracted at \"{name}\" is {} degrees off: {measured} ({indices})",
-            words::degrees(off)
-        );
-        self.add(Law::Snell, number, &name, text);
-        true
+        is_wrong
     }
 
     /// Whether weights are what Fresnel's equations give.
@@ -202,6 +157,64 @@ impl Checked<'_> {
             words::light(child.weight)
         );
         self.add(Law::Fresnel, number, &name, text);
+    }
+}
+
+const SWAPPED: &str = "n1 and n2 are swapped";
+
+impl Sides {
+    fn words(&self) -> String {
+        let [n1, n2] = [self.n1, self.n2].map(words::number);
+        format!("n1 = {n1}, n2 = {n2} at {} degrees", words::degrees(self.sin.asin()))
+    }
+
+    /// What is wrong where a ray is said to be reflected altogether.
+    fn wrongly_reflected(&self, name: &str) -> Option<String> {
+        let sin_behind = self.sin_behind();
+        let swapped = if self.sin * self.n2 > self.n1 { format!("; {SWAPPED}") } else { String::new() };
+        (sin_behind < 1.0).then(|| {
+            format!(
+                "at \"{name}\" all light is said to be reflected inside, but {} give sin b = {}{swapped}",
+                self.words(),
+                words::number(sin_behind)
+            )
+        })
+    }
+
+    /// What is wrong with a refracted ray.
+    fn wrongly_refracted(
+        &self,
+        name: &str,
+        (node, hit): (&TreeNode, &TreeHit),
+        child: &TreeNode,
+    ) -> Option<String> {
+        let [n_g, n_s] = [hit.n_g, hit.n_s].map(|n| unit(Vector3::from(n)));
+        let (d, out) = (unit(node.d), unit(child.d));
+        let Some(expected) = refracted(d, n_s, self) else {
+            let swapped = if self.sin * self.n2 < self.n1 { format!("; {SWAPPED}") } else { String::new() };
+            return Some(format!(
+                "a ray is refracted at \"{name}\" where all light must be reflected: {} give sin b = {}{swapped}",
+                self.words(),
+                words::number(self.sin_behind())
+            ));
+        };
+        let stays = (expected.dot(n_g) > 0.0) != (d.dot(n_g) > 0.0);
+        let expected = if stays { expected - n_g * (2.0 * n_g.dot(expected)) } else { expected };
+        let off = angle(out, expected);
+        let (media, sin_out) = (self.n2 / self.n1, n_s.cross(out).length());
+        let measured = if self.sin > SMALL && sin_out > SMALL {
+            let ratio = self.sin / sin_out;
+            let is_swapped = (ratio * media - 1.0).abs() < 0.01;
+            let swapped = if is_swapped { format!(": {SWAPPED}") } else { String::new() };
+            let [ratio, media] = [ratio, media].map(words::number);
+            format!("sin a / sin b = {ratio}, the media say {media}{swapped}")
+        } else {
+            format!("the media say sin a / sin b = {}", words::number(media))
+        };
+        (off > TOLERANCE).then(|| {
+            let (off, sides) = (words::degrees(off), self.words());
+            format!("the ray refracted at \"{name}\" is {off} degrees off: {measured} ({sides})")
+        })
     }
 }
 
