@@ -34,6 +34,9 @@ const PAGE_NODES: usize = 10_000;
 /// Rays of a page whose boxes are recorded.
 const PAGE_WALKS: u32 = 16;
 
+/// Rays of a tree that are recorded: more are cut off, with a word about it. Each takes about half a kilobyte.
+const MOST_RAYS: usize = 1_000_000;
+
 /// Shows the rays of a pixel sample as a tree.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -108,7 +111,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
             return Ok(loaded.failure);
         };
         let twin = Subject { name: &other.scene.scene, prepared };
-        compare::add(&mut page, &subject, &twin, args.diff.as_deref().unwrap_or_default())?;
+        compare::add(
+            (&mut page, chosen.samples.len()),
+            &subject,
+            &twin,
+            args.diff.as_deref().unwrap_or_default(),
+        )?;
+    }
+    if page.trees.iter().any(|tree| tree.nodes.len() >= MOST_RAYS) {
+        tell(&format!(
+            "warning: the tree has more than {MOST_RAYS} rays: the rest is not recorded\n  \
+             help: lower --max-depth or raise --min-contribution"
+        ));
     }
     let shown = output::only(&page, chosen.samples.len(), args.walk);
     let written = output::write(&outputs, &page, &shown, &args.talk);
@@ -135,7 +149,7 @@ impl Args {
         Detail {
             walks: self.walk.max(if page { PAGE_WALKS } else { 0 }) as usize,
             clock: if page { Clock::On } else { Clock::Off },
-            ..Detail::default()
+            rays: MOST_RAYS,
         }
     }
 

@@ -6,9 +6,10 @@ use durer::{
 
 use crate::exit::WrongUsage;
 
-/// Adds to a page the trees of its samples under other options, and what differs.
+/// Adds to a page the trees of its samples under other options, and what differs. The first `chosen` trees were asked
+/// for; of the others those go that the pixel has not under the other options.
 pub(super) fn add(
-    page: &mut Page,
+    (page, chosen): (&mut Page, usize),
     subject: &Subject<'_>,
     twin: &Subject<'_>,
     options: &str,
@@ -24,13 +25,15 @@ pub(super) fn add(
         )));
     }
     let samples = twin.samples(pixel);
-    if let Some(tree) = page.trees.iter().find(|t| t.sample as usize >= samples.len()) {
+    let is_there = |tree: &Tree| (tree.sample as usize) < samples.len();
+    if let Some(tree) = page.trees.iter().take(chosen).find(|tree| !is_there(tree)) {
         return Err(WrongUsage(format!(
             "--diff \"{options}\": there is no sample {}: the pixel has {} there\n  help: add --spp to the options",
             tree.sample,
             samples.len()
         )));
     }
+    page.trees.retain(is_there);
     // With other numbers of samples or another seed the random numbers are others too, and something of every ray differs.
     let whole = if settings.samples == 1 && subject.prepared.settings.samples == 1 {
         "this pixel"

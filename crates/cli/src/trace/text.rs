@@ -43,12 +43,15 @@ fn tree(tree: &Tree) -> String {
     if tree.killed.iter().any(|v| v.0 > 0.0) {
         let bound = tree.killed.map(|v| Number(v.0 * tree.max_radiance.0));
         let most = significant(tree.max_radiance.0, 4);
-        let _ = writeln!(
-            text,
-            "given up {} of the pixel: at most {} of light, if nothing is brighter than {most}",
-            rgb(tree.killed),
-            rgb(bound)
-        );
+        let killed = rgb(tree.killed);
+        let _ = match tree.max_radiance.0 > 0.0 {
+            true => writeln!(
+                text,
+                "given up {killed} of the pixel: at most {} of light, if nothing is brighter than {most}",
+                rgb(bound)
+            ),
+            false => writeln!(text, "given up {killed} of the pixel; no light was seen that could bound it"),
+        };
     }
     text
 }

@@ -89,11 +89,13 @@ fn a_difference_is_told_in_a_sentence_and_in_json() {
     let line = ran.stdout.lines().find(|l| l.starts_with("depth limit 2 removes ")).expect("a sentence");
     assert!(line.contains(" % of this pixel: "), "{line}");
     let mut command = place.command(&format!("{words} --json"));
-    let json =
+    let page =
         crate::run::Ran::of(command.args(["--diff", "--max-depth 2"]).output().expect("durer runs")).json();
+    let json = &page["trees"][0];
     let limited = place.done(&format!("{words} --max-depth 2 --json")).json();
     assert_eq!(json["diff"]["after"], limited["rgb"]);
     assert_eq!(json["diff"]["summary"].as_str(), Some(line));
+    assert_eq!(page["other"]["trees"][0]["nodes"], limited["nodes"]);
     let kept =
         json["nodes"].as_array().map_or(0, Vec::len) - json["diff"]["removed"].as_array().map_or(0, Vec::len);
     let cut =

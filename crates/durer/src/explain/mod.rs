@@ -47,7 +47,7 @@ pub fn explain(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: 
     let numbers: Vec<u32> = samples.iter().map(|s| s.number).collect();
     let rgb = match (sample, samples.first()) {
         (Some(_), Some(one)) => one.rgb,
-        _ => subject.mean(pixel).map(f64::from),
+        _ => subject.mean(pixel, taken).map(f64::from),
     };
     let detailed = representative(&samples);
     let total: f64 = samples.iter().filter(|s| s.is_finite()).map(|s| s.weight).sum();

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use crate::{
     Prepared, View,
     drive::{Antialias, Gather, Taken},
-    film::Tile,
+    film::{BLOCK, Film, Pixel, Tile},
     math::Point3,
     probe::{Detail, TreeHit, TreeNode},
     spectrum::{Basis, Spectrum},
@@ -69,19 +69,28 @@ impl Subject<'_> {
                     time: Number(s.time),
                 })
                 .collect(),
-            mean: rgb(self.mean(pixel)),
+            mean: rgb(self.mean(pixel, &samples)),
             picture: with_scene.then(|| Thumbnail::new(self.prepared)),
             scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
         }
     }
 
-    /// What the picture holds of a pixel, bit for bit.
-    pub fn mean(&self, pixel: [u32; 2]) -> [f32; 3] {
-        let [x, y] = pixel;
+    /// What the picture holds of a pixel, bit for bit; `samples` are all of it.
+    pub fn mean(&self, pixel: [u32; 2], samples: &[Taken]) -> [f32; 3] {
+        let finite = |t: &Taken| t.rgb.filter(|rgb| rgb.iter().all(|v| v.is_finite()));
+        let weighed: Option<Vec<_>> = samples.iter().map(|t| t.weight.map(|w| (finite(t), w))).collect();
+        match weighed {
+            Some(weighed) => mean_of(&weighed),
+            None => self.adaptive_mean(pixel),
+        }
+    }
+
+    /// The same where weights are a matter of the pixel's neighbours.
+    fn adaptive_mean(&self, [x, y]: [u32; 2]) -> [f32; 3] {
         let mut job = self.prepared.job();
         job.settings.crop = Some(Tile { x0: x, y0: y, x1: x + 1, y1: y + 1 });
         let film = job.render(Gather::Rays, &(), &AtomicBool::new(false)).film;
-        film.pixels().get((y * film.width + x) as usize).map_or([0.0; 3], crate::film::Pixel::mean)
+        film.pixels().get((y * film.width + x) as usize).map_or([0.0; 3], Pixel::mean)
     }
 
     /// All samples of a pixel, in their order.
@@ -126,9 +135,29 @@ impl Subject<'_> {
     }
 }
 
+/// The mean of a film of one pixel; what is infinite or NaN has no value and is left out.
+fn mean_of(samples: &[(Option<[f32; 3]>, f32)]) -> [f32; 3] {
+    let mut film = Film::new(1, 1);
+    let whole = Tile { x0: 0, y0: 0, x1: 1, y1: 1 };
+    let mut pixels = Vec::new();
+    for block in samples.chunks(BLOCK as usize) {
+        film.read(whole, &mut pixels);
+        for (value, weight) in block {
+            if let (Some(value), Some(pixel)) = (value, pixels.first_mut()) {
+                pixel.add(*value, *weight);
+            }
+        }
+        film.write(whole, &pixels);
+        if block.len() == BLOCK as usize {
+            film.finish_block();
+        }
+    }
+    film.pixels().first().map_or([0.0; 3], Pixel::mean)
+}
+
 /// The mean of a film that holds one sample. Differs from the sample in the sign of zero only, but bits are promised.
 fn as_film(value: [f32; 3]) -> [f32; 3] {
-    let mut pixel = crate::film::Pixel::default();
+    let mut pixel = Pixel::default();
     pixel.add(value, 1.0);
     pixel.mean()
 }

@@ -73,7 +73,8 @@ impl Page {
     /// None that data of ours leads to; those of the JSON writer.
     pub fn json(&self) -> serde_json::Result<String> {
         match self.trees.as_slice() {
-            [tree] => serde_json::to_string_pretty(tree),
+            // What a comparison says refers to both trees.
+            [tree] if self.other.is_none() => serde_json::to_string_pretty(tree),
             _ => serde_json::to_string_pretty(&Self { picture: None, scene: None, ..self.clone() }),
         }
     }
