@@ -34,8 +34,8 @@ const PAGE_NODES: usize = 10_000;
 /// Rays of a page whose boxes are recorded.
 const PAGE_WALKS: u32 = 16;
 
-/// Rays of a tree that are recorded: more are cut off, with a word about it. Each takes about half a kilobyte.
-const MOST_RAYS: usize = 1_000_000;
+/// Rays of a tree that are recorded: more are cut off, with a word about it. Each takes about two kilobytes of JSON.
+const MOST_RAYS: usize = 250_000;
 
 /// Shows the rays of a pixel sample as a tree.
 #[derive(clap::Args)]

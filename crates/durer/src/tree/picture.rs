@@ -1,6 +1,4 @@
 //! The picture, small and rendered in a moment: for orientation.
-use std::sync::atomic::AtomicBool;
-
 use base64::{Engine, engine::general_purpose::STANDARD};
 use serde::{Deserialize, Serialize};
 
@@ -13,10 +11,8 @@ use crate::{
 
 /// Most pixels of a row or column.
 const LARGEST: u32 = 320;
-/// Rows and columns of pixels that tell what a picture costs.
-const SOUNDINGS: u32 = 4;
-/// Most rays a sample, on average.
-const MOST_RAYS: u64 = 200;
+/// Most rays that a tree may come to have.
+const MOST_RAYS: f64 = 20_000.0;
 
 /// A small picture of the scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,22 +49,10 @@ impl Thumbnail {
     }
 }
 
-/// Whether a few pixels' first samples take more rays than a small picture may.
+/// Whether the rules of the integrator let trees become larger than a small picture may have: no more rays than a full
+/// tree has, and of each bounce no more than have a share above the least.
 fn is_costly(prepared: &Prepared) -> bool {
-    let mut job = prepared.job();
-    job.settings.samples = 1;
-    let (width, height) = (prepared.scene.view.width, prepared.scene.view.height);
-    let mut pixels = 0;
-    let mut rays = 0;
-    // One after another: the first costly one ends it.
-    for (x, y) in (0..SOUNDINGS).flat_map(|y| (0..SOUNDINGS).map(move |x| (x, y))) {
-        let at = |i: u32, n: u32| ((2 * i + 1) * n / (2 * SOUNDINGS)).min(n.saturating_sub(1));
-        let counted = job.count(&[[at(x, width), at(y, height)]], &AtomicBool::new(false));
-        pixels += 1;
-        rays += counted.counters.all_rays();
-        if rays > SOUNDINGS as u64 * SOUNDINGS as u64 * MOST_RAYS {
-            return true;
-        }
-    }
-    rays > pixels * MOST_RAYS
+    let number = |name: &str| prepared.rules.get(name).and_then(serde_json::Value::as_f64);
+    let (Some(depth), Some(least)) = (number("max_depth"), number("min_contribution")) else { return false };
+    2f64.powf(depth + 1.0).min(depth / least) > MOST_RAYS
 }
