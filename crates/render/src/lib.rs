@@ -8,6 +8,7 @@ pub mod compile;
 pub mod drive;
 pub mod film;
 pub mod integrator;
+mod light_sampler;
 mod media;
 mod pieces;
 pub mod probe;
@@ -15,6 +16,7 @@ mod sample;
 mod scene;
 mod view;
 
+pub use light_sampler::{Chosen, LightSampler, Lit};
 pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
 pub use pieces::{Form, Piece};
 pub use sample::{Contribution, PathRay, SampleCx, Value};

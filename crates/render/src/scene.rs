@@ -84,6 +84,8 @@ pub struct Scene {
     pub(crate) lamps: Vec<u32>,
     /// The lights around the scene.
     pub(crate) surroundings: Vec<u32>,
+    /// The lights that paths choose among: all whose [`Light::sample`] may give something.
+    pub(crate) sources: Vec<u32>,
     /// Names of the lights.
     pub light_names: Vec<String>,
     /// The camera.

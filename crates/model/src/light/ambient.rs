@@ -40,6 +40,9 @@ impl Light for Ambient {
     fn surrounds(&self) -> bool {
         true
     }
+    fn is_sampled(&self) -> bool {
+        false
+    }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {
         basis.emission(self.radiance)
     }

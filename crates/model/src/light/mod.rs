@@ -80,6 +80,16 @@ pub trait Light: Debug + Send + Sync {
         let _ = (cx, from, hit);
         0.0
     }
+    /// Whether [`Light::sample`] ever gives something.
+    fn is_sampled(&self) -> bool {
+        true
+    }
+    /// The density with which [`Light::sample`], asked at `from`, gives the direction `d` of a ray that left the scene,
+    /// 1/sr; 0 for lights that do not surround it.
+    fn pdf_escaped(&self, cx: &LightCx, from: Point3, d: Vector3) -> f32 {
+        let _ = (cx, from, d);
+        0.0
+    }
     /// Radiance that leaves a point of this light in unit direction `wo`; black for lights that rays cannot meet.
     fn emitted(&self, basis: Basis, surface: &Surface, wo: Vector3) -> Spectrum {
         let _ = (basis, surface, wo);

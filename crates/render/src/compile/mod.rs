@@ -117,6 +117,7 @@ pub fn compile(
         material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
+        sources: those(|light| light.is_sampled()),
         lights,
         light_names,
         view,
