@@ -20,6 +20,10 @@ pub enum Straight {
 }
 
 impl Bsdf {
+    /// What of the light that goes straight on leaves along `wo`, what is lost on the way along it included.
+    pub fn passed(&self, wo: Vector3) -> Spectrum {
+        self.arriving * self.straight(wo, Straight::Clear)
+    }
     /// The share of light that passes along the line of unit direction `wo`, in the direction or against it. Black where
     /// the surface is opaque.
     pub fn straight(&self, wo: Vector3, how: Straight) -> Spectrum {

@@ -3,6 +3,7 @@
 //! An author writes one generic [`Transport::sample`]; what the driver holds is the object-safe [`Integrator`], which
 //! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
 
+mod ambient_occlusion;
 mod cast;
 mod distributed;
 mod path;
@@ -17,6 +18,7 @@ use crate::{
     probe::{Counters, NoProbe, Probe, Recorder, TreeNode},
 };
 
+pub use ambient_occlusion::AmbientOcclusion;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
 pub use path::{Direct, Path};
@@ -131,18 +133,10 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Distributed>(),
     Entry::of::<Path>(),
     Entry::of::<Direct>(),
+    Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
 ];
 
 /// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] = &[
-    "ambientocclusion",
-    "bdpt",
-    "function",
-    "lightpath",
-    "mlt",
-    "randomwalk",
-    "simplepath",
-    "simplevolpath",
-    "sppm",
-];
+pub const NOT_YET: &[&str] =
+    &["bdpt", "function", "lightpath", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];

@@ -15,7 +15,7 @@ use super::{
 use crate::{
     Contribution, Lit, PathRay, SampleCx, Value,
     media::{Boundary, Crossing},
-    probe::{Probe, RayKind, StopReason, TreeNode},
+    probe::{Choice, Probe, RayKind, StopReason, TreeNode},
 };
 
 /// Hits that are summed at once. Longer paths are summed in parts, the last first.
@@ -144,8 +144,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         }
         self.walk.probe.local(id, emission);
         if self.course.direct_only && ray.density.is_some() {
-            self.walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
-            return Step::end(emission);
+            return Step { radiance: emission, next: self.pass_only(ray, (&s, &crossing), id) };
         }
         let lit = self.lit(&s);
         let radiance = self.light(ray, (&s, &crossing), &lit, (id, emission));
@@ -199,6 +198,24 @@ impl<'a, P: Probe> Follow<'a, P> {
         Some((child, kind))
     }
 
+    /// The ray straight on behind a surface of which nothing else is followed.
+    fn pass_only(
+        &mut self,
+        parent: &PathRay,
+        (s, crossing): (&Shading, &Crossing),
+        id: P::Id,
+    ) -> Option<(PathRay, RayKind)> {
+        let weight = s.bsdf.passed(s.wo_local);
+        if weight.is_black() {
+            self.walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+            return None;
+        }
+        if P::RECORDS {
+            self.walk.probe.chosen(&Choice::sharp());
+        }
+        Some((straight_on(parent, (s, crossing), weight), RayKind::sharp(BranchKind::Transmission)))
+    }
+
     /// The ray in a scattered direction; `None` if a spread direction lies on the wrong side of the true surface.
     fn child(
         &self,
@@ -210,11 +227,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         let time = parent.ray.time;
         let weight = scattered.weight;
         if scattered.passes {
-            let ray = s.surface.spawn(parent.ray.d, time);
-            let media = crossing.media(BranchKind::Transmission);
-            let walked = (s.surface.p - parent.ray.o).length();
-            let passing = parent.passing((s.surface.p, ray), weight, media, walked);
-            return Some(PathRay { sampler: parent.sampler.fork(SCATTER_BRANCH + 1), ..passing });
+            return Some(straight_on(parent, (s, crossing), weight));
         }
         let d = s.frame.to_world(scattered.wi);
         let d = match scattered.pdf {
@@ -243,4 +256,13 @@ impl<'a, P: Probe> Follow<'a, P> {
         // Paths that carry more than the eye ray go on, and so do those whose share cannot be told.
         if carried < 1.0 { carried } else { 1.0 }
     }
+}
+
+/// The ray straight on behind a surface: no bounce, but with random numbers of its own.
+fn straight_on(parent: &PathRay, (s, crossing): (&Shading, &Crossing), weight: Spectrum) -> PathRay {
+    let ray = s.surface.spawn(parent.ray.d, parent.ray.time);
+    let media = crossing.media(BranchKind::Transmission);
+    let walked = (s.surface.p - parent.ray.o).length();
+    let sampler = parent.sampler.fork(SCATTER_BRANCH + 1);
+    PathRay { sampler, ..parent.passing((s.surface.p, ray), weight, media, walked) }
 }
