@@ -1,10 +1,10 @@
 //! A description and wishes to something that renders.
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::OnceLock};
 
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
-use durer_model::filter::Filter;
+use durer_model::{filter::Filter, material::GlossRays};
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
@@ -43,6 +43,8 @@ pub struct Prepared {
     pub material_names: Vec<String>,
     /// Samples, seed, threads.
     pub settings: Settings,
+    /// See [`Prepared::brightest`].
+    brightest: OnceLock<Result<f32, String>>,
 }
 
 impl Prepared {
@@ -53,6 +55,19 @@ impl Prepared {
     /// What the material of this number is called.
     pub fn material_name(&self, material: u32) -> String {
         self.material_names.get(material as usize).cloned().unwrap_or_else(|| "default".to_owned())
+    }
+    /// The largest radiance that any ray of the scene can bring, over all channels, in the mean over random choices. Looked
+    /// for when it is asked for first.
+    ///
+    /// # Errors
+    /// Why there is no bound, as a clause.
+    pub fn brightest(&self) -> Result<f32, &str> {
+        let gloss = match self.rules.contains_key("gloss_rays") {
+            true => GlossRays::Drawn,
+            false => GlossRays::Main,
+        };
+        let found = self.brightest.get_or_init(|| self.scene.brightest(gloss));
+        found.as_ref().copied().map_err(String::as_str)
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {
@@ -112,6 +127,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         rules,
         material_names: material_names(desc),
         settings,
+        brightest: OnceLock::new(),
     })
 }
 

@@ -117,9 +117,9 @@ impl RayTree {
         self.nodes.iter().map(of).filter(|v| v.is_finite()).fold(0.0, f32::max)
     }
 
-    /// What the pixel lacks at most because rays were given up, if nothing in the scene is brighter than what this tree
-    /// has seen: [`RayTree::killed`] times [`RayTree::max_radiance`].
-    pub fn lost_bound(&self) -> Spectrum {
-        self.killed() * self.max_radiance()
+    /// What the pixel lacks at most because rays were given up: [`RayTree::killed`] times the largest radiance in the
+    /// scene, which [`crate::Scene::brightest`] tells. What this tree has seen tells nothing of what it has not.
+    pub fn lost_bound(&self, brightest: f32) -> Spectrum {
+        self.killed() * brightest
     }
 }
