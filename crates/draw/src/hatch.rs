@@ -5,7 +5,7 @@
 //! its seed both ways until it comes near another, leaves the surface or the shade.
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use durer_core::{glam::DVec2, math::Vector3};
+use durer_core::{glam::DVec2, math::Vector3, spectrum::Color};
 use durer_render::Scene;
 
 use crate::{
@@ -42,7 +42,7 @@ impl Tones {
         if pixels.is_empty() || pixels.len() != width * height {
             return None;
         }
-        let light = |p: &[f32; 3]| (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).clamp(0.0, 1.0).sqrt();
+        let light = |p: &[f32; 3]| Color { rgb: *p }.luminance().clamp(0.0, 1.0).sqrt();
         let sharp: Vec<f32> = pixels.iter().map(light).map(|v| if v.is_finite() { v } else { 0.0 }).collect();
         // The noise of few samples would cut strokes to pieces.
         let mean = |i: usize| {

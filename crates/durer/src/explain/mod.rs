@@ -58,6 +58,7 @@ pub fn explain(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: 
             sources.merge(&part::by_source(subject.prepared, &one.tree), one.weight / total);
         }
     }
+    let missing = survey::missing(subject.prepared, &samples);
     let mut explanation = Explanation {
         version: VERSION,
         scene: subject.name.to_owned(),
@@ -70,7 +71,8 @@ pub fn explain(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: 
         parts: ways.sorted(),
         sources: sources.sorted(),
         spread: (samples.len() > 1).then(|| survey::spread(&samples)),
-        missing: survey::missing(&samples),
+        missing: missing.as_ref().ok().copied(),
+        no_bound: missing.err(),
         paragraphs: Vec::new(),
         findings: findings(subject, &samples),
     };
