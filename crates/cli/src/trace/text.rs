@@ -1,7 +1,7 @@
 //! The ray tree to read.
 use std::fmt::Write;
 
-use durer::tree::{Comparison, Node, Page, Tree, Wording, met, short, triple};
+use durer::tree::{Comparison, Node, Number, Page, Tree, Wording, met, short, triple};
 
 use crate::number::pixel_line;
 
@@ -51,13 +51,24 @@ fn given_up(tree: &Tree) -> String {
     let killed = triple(tree.killed);
     match (tree.missing, &tree.no_bound) {
         (Some(missing), _) => {
-            let most = tree.brightest.map(|most| format!(", as nothing in the scene is brighter than {}", short(most)));
+            let most = tree
+                .brightest
+                .map(|most| format!(", as nothing in the scene is brighter than {}", short(most)));
             let most = most.unwrap_or_default();
             format!("given up {killed} of the pixel: at most {} of light{most}\n", triple(missing))
         }
         (None, why) => {
             let why = why.as_deref().unwrap_or("nothing is known of the scene's light");
-            format!("given up {killed} of the pixel; no bound: {why}\n")
+            let seen = tree.max_radiance;
+            let guess = triple(tree.killed.map(|v| Number(v.0 * seen.0)));
+            let guess = match seen.0 > 0.0 {
+                true => format!(
+                    "; {guess} of light if nothing is brighter than the {} that was seen",
+                    short(seen)
+                ),
+                false => String::new(),
+            };
+            format!("given up {killed} of the pixel; no bound: {why}{guess}\n")
         }
     }
 }

@@ -28,6 +28,11 @@ pub(super) fn cut_share(tree: &RayTree) -> [f64; 3] {
     })
 }
 
+/// The largest radiance in the samples.
+pub(super) fn brightest(samples: &[Sample]) -> f64 {
+    samples.iter().map(|s| f64::from(s.tree.max_radiance())).fold(0.0, f64::max)
+}
+
 /// What is missing at most, of the mean of the samples.
 ///
 /// # Errors

@@ -40,14 +40,15 @@ pub enum Surroundings {
 }
 
 impl Subject<'_> {
-    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them.
+    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them. Other samples than the one are
+    /// taken only if there are several, or if their trees are wanted too: else the page has no values of samples.
     pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings, detail: Detail) -> Page {
-        let samples = self.samples(pixel);
-        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s, detail)).collect();
+        let count = self.prepared.job().sample_count(pixel);
+        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree_of(pixel, count, s, detail)).collect();
         if let Surroundings::SceneAndSamples(most) = around {
             let mut nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
-            for sample in (0..samples.len() as u32).filter(|s| !chosen.contains(s)) {
-                let tree = self.tree(pixel, &samples, sample, Detail::default());
+            for sample in (0..count).filter(|s| !chosen.contains(s)) {
+                let tree = self.tree_of(pixel, count, sample, Detail::default());
                 nodes += tree.nodes.len();
                 if nodes > most {
                     break;
@@ -56,23 +57,30 @@ impl Subject<'_> {
             }
         }
         let with_scene = around != Surroundings::None;
-        Page {
+        let mut page = Page {
             version: VERSION,
             trees,
-            other: None,
-            values: samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect(),
-            dims: samples
-                .iter()
-                .map(|s| Dimensions {
-                    film: s.film.map(Number),
-                    lens: s.lens.map(|l| l.map(Number)),
-                    time: Number(s.time),
-                })
-                .collect(),
-            mean: rgb(self.mean(pixel, &samples)),
             picture: with_scene.then(|| Thumbnail::new(self.prepared)),
             scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
+            ..Page::default()
+        };
+        if chosen.len() != 1 || matches!(around, Surroundings::SceneAndSamples(_)) {
+            self.add_samples(&mut page, pixel);
         }
+        page
+    }
+
+    /// Takes all samples of the pixel and adds to the page what they say.
+    pub fn add_samples(&self, page: &mut Page, pixel: [u32; 2]) {
+        let samples = self.samples(pixel);
+        page.values = samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect();
+        let dims = |s: &Taken| Dimensions {
+            film: s.film.map(Number),
+            lens: s.lens.map(|l| l.map(Number)),
+            time: Number(s.time),
+        };
+        page.dims = samples.iter().map(dims).collect();
+        page.mean = rgb(self.mean(pixel, &samples));
     }
 
     /// What the picture holds of a pixel, bit for bit; `samples` are all of it.

@@ -120,7 +120,9 @@ impl Comparison {
             Some(r) if r < 0.0 => format!("{what} removes {} of {whole}", percent(-r)),
             Some(r) if r > 0.0 => format!("{what} adds {} to {whole}", percent(r)),
             Some(_) => format!("{what} changes the colour of {whole}, not its luminance"),
-            None if no_light.is_some() => format!("{what} changes {whole} ({})", no_light.unwrap_or_default()),
+            None if no_light.is_some() => {
+                format!("{what} changes {whole} ({})", no_light.unwrap_or_default())
+            }
             None if plain(self.before).iter().all(|v| *v == 0.0) => {
                 format!("{what} brings light to {whole}, which was black")
             }

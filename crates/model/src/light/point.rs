@@ -9,8 +9,8 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff, scaled,
-    track::Anchor,
+    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff,
+    scaled, track::Anchor,
 };
 
 /// A point light.

@@ -13,8 +13,8 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff, scaled,
-    track::Anchor,
+    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff,
+    scaled, track::Anchor,
 };
 
 /// A spot light.

@@ -160,7 +160,9 @@ impl Material for Classic {
         let blurred: f32 = blurs
             .into_iter()
             .filter(|(weight, exponent)| *weight > 0.0 && exponent.is_finite())
-            .map(|(weight, exponent)| arriving.highlight(weight * cosine_gain(exponent)) + weight * arriving.lamps)
+            .map(|(weight, exponent)| {
+                arriving.highlight(weight * cosine_gain(exponent)) + weight * arriving.lamps
+            })
             .sum();
         let own = ambient * arriving.sky
             + diffuse * (arriving.lamps + arriving.facing)

@@ -2,7 +2,9 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamSpec, Schema};
 
-use super::{Arriving, Material, Sent, largest_share, roughness::Roughness, sent::ggx_gain, share, share_input};
+use super::{
+    Arriving, Material, Sent, largest_share, roughness::Roughness, sent::ggx_gain, share, share_input,
+};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Glossy, Lobe, SMOOTH},

@@ -18,7 +18,11 @@ use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, ColorInput, Entry};
 
 pub use self::{
-    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, interface::Interface, mirror::Mirror,
+    classic::Classic,
+    dielectric::Dielectric,
+    diffuse::Diffuse,
+    interface::Interface,
+    mirror::Mirror,
     principled::Principled,
     sent::{Arriving, GlossRays, Sent},
 };

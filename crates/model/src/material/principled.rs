@@ -14,9 +14,7 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{
-    Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input,
-};
+use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Glossy, Lobe, SMOOTH, normal_reflectance},
@@ -230,7 +228,8 @@ impl Material for Principled {
             let followed = if passes { 1.0 } else { 0.0 };
             return Sent { own: 0.0, scattered: cx.largest_color(self.base), followed };
         }
-        let is_dull = arriving.gloss == GlossRays::Main && alpha.is_some_and(|alpha| alpha >= Glossy::BLURRED);
+        let is_dull =
+            arriving.gloss == GlossRays::Main && alpha.is_some_and(|alpha| alpha >= Glossy::BLURRED);
         let gain = match alpha {
             Some(alpha) if alpha < SMOOTH => 0.0,
             alpha => alpha.map_or(f32::INFINITY, ggx_gain),

@@ -42,7 +42,7 @@ impl Scene {
                 return Err(format!("highlights of lights without extent on \"{name}\" have no bound"));
             } else if own.is_infinite() {
                 let name = &object.name;
-                return Err(format!("\"{name}\" adds light of its own to all that it reflects or lets through"));
+                return Err(format!("\"{name}\" adds light to all that it reflects or lets through"));
             }
             most = most.max(own);
         }

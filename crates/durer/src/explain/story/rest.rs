@@ -69,11 +69,21 @@ pub(super) fn cut(prepared: &Prepared, samples: &[Sample], explanation: &Explana
 /// What rays that were given up could have brought.
 fn bound(prepared: &Prepared, samples: &[Sample], explanation: &Explanation) -> String {
     let sum: f64 = samples.iter().map(|s| luminance(survey::cut_share(&s.tree))).sum();
-    let share = percent(sum / samples.len().max(1) as f64);
+    let mean = sum / samples.len().max(1) as f64;
+    let share = percent(mean);
     let had = format!("They would have had {share} of the {}", of_what(samples));
     let (Some(missing), Ok(most)) = (explanation.missing, prepared.brightest()) else {
         let why = explanation.no_bound.as_deref().unwrap_or_default();
-        return format!("{had}; what they could have added has no bound: {why}.");
+        let seen = survey::brightest(samples);
+        let guess = match seen > 0.0 {
+            true => format!(
+                " If nothing is brighter than the {} that was seen, it is a luminance of {} at most.",
+                number(seen),
+                number(mean * seen)
+            ),
+            false => String::new(),
+        };
+        return format!("{had}; what they could have added has no bound: {why}.{guess}");
     };
     let whole = luminance(explanation.rgb);
     let share = match whole > 0.0 {
