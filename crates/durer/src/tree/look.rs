@@ -83,8 +83,8 @@ impl Light {
 /// A number for people: four significant digits.
 pub fn short(v: Number) -> String {
     if !v.0.is_finite() {
-        let sign = if v.0 == f32::NEG_INFINITY { "-" } else { "" };
-        return format!("{sign}{}", if v.0.is_nan() { "nan" } else { "inf" });
+        // Which of them it was is lost where a document is read: all are null there.
+        return "not finite".to_owned();
     }
     let rounded: f64 = format!("{:.3e}", v.0).parse().unwrap_or_default();
     let size = rounded.abs();
