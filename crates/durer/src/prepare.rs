@@ -1,5 +1,5 @@
 //! A description and wishes to something that renders.
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::collections::BTreeMap;
 
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
@@ -43,8 +43,6 @@ pub struct Prepared {
     pub material_names: Vec<String>,
     /// Samples, seed, threads.
     pub settings: Settings,
-    /// See [`Prepared::brightest`].
-    brightest: OnceLock<Result<f32, String>>,
 }
 
 impl Prepared {
@@ -66,8 +64,7 @@ impl Prepared {
             true => GlossRays::Drawn,
             false => GlossRays::Main,
         };
-        let found = self.brightest.get_or_init(|| self.scene.brightest(gloss));
-        found.as_ref().copied().map_err(String::as_str)
+        self.scene.brightest(gloss)
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {
@@ -127,7 +124,6 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         rules,
         material_names: material_names(desc),
         settings,
-        brightest: OnceLock::new(),
     })
 }
 

@@ -24,11 +24,17 @@ use crate::{Form, Piece, SampleCx, Scene};
 const MOMENTS: u32 = 9;
 
 impl Scene {
-    /// The largest radiance that any ray can bring, over all channels, in the mean over random choices.
+    /// The largest radiance that any ray can bring, over all channels, in the mean over random choices. Looked for when it
+    /// is asked for first.
     ///
     /// # Errors
     /// Why there is no bound, as a clause.
-    pub fn brightest(&self, gloss: GlossRays) -> Result<f32, String> {
+    pub fn brightest(&self, gloss: GlossRays) -> Result<f32, &str> {
+        let found = self.brightest[gloss as usize].get_or_init(|| self.find_brightest(gloss));
+        found.as_ref().copied().map_err(String::as_str)
+    }
+
+    fn find_brightest(&self, gloss: GlossRays) -> Result<f32, String> {
         let arriving = self.arriving_at_most(gloss)?;
         let cx = SampleCx { scene: self, basis: Basis::Rgb };
         let of_materials: Vec<Sent> = self.materials.iter().map(|m| m.sent(&cx.shade(), &arriving)).collect();
