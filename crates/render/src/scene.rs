@@ -1,5 +1,5 @@
 //! The compiled scene: frozen, without lifetimes, ready to be asked for hits by any number of threads.
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
@@ -101,6 +101,8 @@ pub struct Scene {
     pub(crate) is_passed: bool,
     /// The bodies that the camera is in.
     pub start: MediumStack,
+    /// See [`Scene::brightest`]; by how gloss is seen.
+    pub(crate) brightest: [OnceLock<Result<f32, String>>; 2],
 }
 
 /// The scene's own part of a ray's way: shapes that are no meshes, and what is not there for the ray.

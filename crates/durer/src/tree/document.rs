@@ -53,9 +53,18 @@ pub struct Tree {
     pub rgb: Rgb,
     /// Sum of `lost` of all nodes: the share of the pixel that rays which were not traced would have had.
     pub killed: Rgb,
-    /// The largest radiance in the tree, over nodes and channels. `killed` times this bounds what was cut off, if nothing
-    /// in the scene is brighter than what was seen.
+    /// The largest radiance in the tree, over nodes and channels.
     pub max_radiance: Number,
+    /// The largest radiance that any ray of the scene can bring, over channels and in the mean over random choices. Null
+    /// if no ray was given up that it concerns, or if there is no bound.
+    pub brightest: Option<Number>,
+    /// So much of `rgb` at most is missing because rays were not traced: `lost` times `brightest`, or times what the
+    /// light of a shadow ray sends, of all nodes. Null if there is no bound.
+    pub missing: Option<Rgb>,
+    /// Why there is no bound on what is missing; null if there is one.
+    pub no_bound: Option<String>,
+    /// What the numbers of a data picture are: `depth`, `normal`, `uv`, `id` or `cost`. Null if `rgb` is light.
+    pub data: Option<String>,
     /// The node that an infinite or NaN value comes from; null if there is none.
     pub bad: Option<u32>,
     /// The rays, parents before children, in the order they were announced; ids are indices.

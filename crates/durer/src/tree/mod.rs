@@ -30,7 +30,7 @@ pub use find::{Find, Found};
 pub use format::{FORMATS, Format};
 pub use ghost::GhostScene;
 pub use glb::{TooLarge, glb};
-pub use look::{Look, met, short, triple};
+pub use look::{Look, Wording, met, short, triple};
 pub use number::{Direction, Metres, Number, Place, Rgb, plain, rgb};
 pub use page::{Dimensions, Other, Page};
 pub use picture::Thumbnail;

@@ -9,7 +9,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, Track, sky_blur::SkyBlur};
+use super::{Light, LightBound, Track, largest, sky_blur::SkyBlur};
 
 /// A gradient sky.
 #[derive(Debug)]
@@ -92,6 +92,11 @@ impl Light for GradientSky {
     }
     fn surrounds(&self) -> bool {
         true
+    }
+    /// Everything is a mixture of the three.
+    fn bound(&self) -> LightBound {
+        let most = [self.zenith, self.horizon, self.ground].map(largest).into_iter().fold(0.0, f32::max);
+        LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let s = n.dot(self.up);

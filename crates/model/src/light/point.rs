@@ -9,8 +9,8 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff, scaled,
-    track::Anchor,
+    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff,
+    scaled, track::Anchor,
 };
 
 /// A point light.
@@ -52,6 +52,9 @@ impl Light for Point {
         let (wi, irradiance) = self.falloff.towards(position, p)?;
         let weight = cx.basis.emission(self.intensity) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+    }
+    fn bound(&self) -> LightBound {
+        self.falloff.bound(&self.anchor, self.intensity)
     }
     fn reach(&self, p: Point3, time: f32) -> f32 {
         let towards = self.falloff.towards(self.anchor.at(time).0, p);

@@ -13,8 +13,8 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff, scaled,
-    track::Anchor,
+    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff,
+    scaled, track::Anchor,
 };
 
 /// A spot light.
@@ -92,6 +92,9 @@ impl Light for Spot {
         let (wi, irradiance) = self.falloff.towards(position, p)?;
         let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+    }
+    fn bound(&self) -> LightBound {
+        self.falloff.bound(&self.anchor, self.intensity)
     }
     fn reach(&self, p: Point3, time: f32) -> f32 {
         let (position, axis) = self.anchor.at(time);

@@ -110,6 +110,7 @@ pub fn compile(
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
     let mut scene = Scene {
+        brightest: Default::default(),
         report,
         objects: placed.objects,
         textures,

@@ -77,7 +77,7 @@ impl RandomNumbers {
 /// What chose the direction of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChosenBy {
-    /// A light was sampled.
+    /// A light was sampled, after it was chosen among all with [`Choice::chance`].
     Light,
     /// A lobe has but this direction: mirrors, smooth interfaces.
     Sharp,
@@ -87,10 +87,10 @@ pub enum ChosenBy {
 
 /// How a ray and its weight came about:
 ///
-/// - [`ChosenBy::Light`]: `weight = f cos mis / rays`. It multiplies [`LightEvent::unoccluded`], which holds the division
-///   by `pdf`.
+/// - [`ChosenBy::Light`]: `weight = f cos mis / (rays chance)`. It multiplies [`LightEvent::unoccluded`], which holds the
+///   division by `pdf`.
 /// - [`ChosenBy::Sharp`]: `weight` is what the lobe reflects or transmits; `f`, `cos`, `pdf` do not apply.
-/// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`.
+/// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`; `chance` is 1.
 ///
 /// Whatever is lost on the way along the parent ray is part of `f`.
 #[derive(Clone, Copy, Debug, PartialEq)]

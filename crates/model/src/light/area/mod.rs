@@ -24,7 +24,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightCx, LightHit, LightSample, POWER, Track};
+use super::{Light, LightBound, LightCx, LightHit, LightSample, POWER, Track, largest};
 use crate::{Surface, shape::Geometry};
 use emitter::Emitter;
 
@@ -141,6 +141,10 @@ impl Light for Area {
         let point = offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), back);
         let wi = Vector3::from_f64(towards / distance);
         Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32) })
+    }
+
+    fn bound(&self) -> LightBound {
+        LightBound { seen: largest(self.radiance), ..LightBound::default() }
     }
 
     fn reach(&self, p: Point3, _time: f32) -> f32 {

@@ -16,7 +16,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{blur::Blur, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, Track, scaled};
+use super::{Light, LightBound, Track, largest, scaled};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -136,6 +136,12 @@ impl Light for Infinite {
     }
     fn surrounds(&self) -> bool {
         true
+    }
+    /// Blurring makes nothing brighter.
+    fn bound(&self) -> LightBound {
+        let of_picture = self.picture.as_ref().map_or(1.0, |picture| picture.panorama.largest());
+        let most = largest(self.radiance) * of_picture;
+        LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         self.emitted(basis, Vector3::new(n.x, n.y, n.z), |p, n| p.blur.ambient(n))

@@ -61,6 +61,12 @@ impl Panorama {
         let [width, height] = self.size();
         (0..height).all(|y| (0..width).all(|x| self.pixel(x, y) == [0.0; 3]))
     }
+    /// The largest component of all pixels.
+    pub(super) fn largest(&self) -> f32 {
+        let [width, height] = self.size();
+        let of_row = |y| (0..width).flat_map(move |x| self.pixel(x, y)).fold(0.0, f32::max);
+        (0..height).into_par_iter().map(of_row).reduce(|| 0.0, f32::max)
+    }
     /// Linear RGB in unit direction `d`, bilinear.
     pub(super) fn seen(&self, d: Vector3) -> [f32; 3] {
         weighted(self.layout.corners(self.layout.uv(d), self.size()), |x, y| self.pixel(x, y))

@@ -210,17 +210,13 @@ impl<P: Probe> Walk<'_, P> {
         let cos = drawn.branch.wi.z.abs();
         self.probe.chosen(&Choice {
             by: ChosenBy::Lobe,
-            chance: 1.0,
-            kept: 1.0,
-            light_choice: None,
             lobe: lobe.map(|(_, lobe)| lobe.name()),
             f: (cos > 0.0).then(|| drawn.branch.weight * (drawn.pdf / cos)),
             cos: Some(cos),
             pdf: Some(drawn.pdf),
-            other_pdf: None,
-            mis: None,
             rays,
             random: numbers.map(|u| RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
+            ..Choice::sharp()
         });
     }
 
