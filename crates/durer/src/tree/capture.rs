@@ -72,6 +72,7 @@ impl Subject<'_> {
             mean: rgb(self.mean(pixel, &samples)),
             picture: with_scene.then(|| Thumbnail::new(self.prepared)),
             scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
+            left_out: Vec::new(),
         }
     }
 
@@ -131,6 +132,7 @@ impl Subject<'_> {
             bad: recorded.bad,
             nodes,
             diff: None,
+            left_out: None,
         }
     }
 }
