@@ -7,7 +7,7 @@ import { cssOf, stopOf } from "../data/kinds";
 import { count, num, percent } from "../data/number";
 import { statistics, type Share, type Statistics } from "../data/statistics";
 import type { Store } from "../state/store";
-import { Bar, Choice, Empty, KindLine, Section } from "./parts";
+import { Bar, Choice, Empty, KindLine, LeftOutNote, Section } from "./parts";
 
 export function Numbers({ store }: { store: Store }): JSX.Element {
   const all = useSignal<"this" | "all">("this");
@@ -17,6 +17,7 @@ export function Numbers({ store }: { store: Store }): JSX.Element {
   return (
     <>
       {many && <div class="rowed"><Choice<"this" | "all"> label="Which samples" value={all.value} options={[["this", "This sample"], ["all", `All ${store.page.trees.length} in this page`]]} onChange={(v) => (all.value = v)} /></div>}
+      <LeftOutNote store={store} />
       <Killed s={s} />
       <Section title="Light by length of the path" note="what the rays of each depth add themselves">
         <Depths s={s} />
