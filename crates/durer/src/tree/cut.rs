@@ -40,7 +40,8 @@ pub(super) fn cut(pair: Pair<'_>, most: usize) -> (Tree, Option<Tree>) {
         return (tree.clone(), other.cloned());
     }
     let mut kept = keep(pair, most).into_iter();
-    let (mine, theirs) = (New::new(kept.next().unwrap_or_default()), New::new(kept.next().unwrap_or_default()));
+    let (mine, theirs) =
+        (New::new(kept.next().unwrap_or_default()), New::new(kept.next().unwrap_or_default()));
     let mut small = mine.tree(tree);
     small.diff = tree.diff.as_ref().map(|diff| renumbered(diff, &mine, &theirs));
     (small, other.map(|t| theirs.tree(t)))

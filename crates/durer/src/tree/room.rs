@@ -13,8 +13,8 @@ use super::{
     page::{Other, Page},
 };
 
-/// Fewest rays that are worth showing of a large tree.
-const LEAST: usize = 64;
+/// Trees, with both sides, of no more rays than these are shown as a whole or not at all.
+const LEAST: usize = 256;
 /// Most samples whose values are kept.
 const VALUES: usize = 4096;
 
@@ -44,7 +44,9 @@ impl Lean {
             Self::Others => "rays of other samples",
             Self::All => "rays",
         };
-        Some(format!("of {whose}: boxes tested, triangles, random numbers, lobes, textures, digits beyond the sixth"))
+        Some(format!(
+            "of {whose}: boxes tested, triangles, random numbers, lobes, textures, digits beyond the sixth"
+        ))
     }
 }
 
