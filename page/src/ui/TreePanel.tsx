@@ -23,7 +23,7 @@ export function TreePanel({ store }: { store: Store }): JSX.Element {
       <LeftOutNote store={store} />
       {store.treeStyle.value === "slide" ? <Slide store={store} /> : <Outline store={store} />}
       <div class="tally">
-        <span>{count(g.nodes.length)} rays{shown < g.nodes.length && `, ${count(shown)} shown`}</span>
+        <span>{count(g.nodes.length)} {g.nodes.length === 1 ? "ray" : "rays"}{shown < g.nodes.length && `, ${count(shown)} shown`}</span>
         <button type="button" title="Fold all" onClick={() => store.foldAll(true)}>fold</button>
         <button type="button" title="Open all" onClick={() => store.foldAll(false)}>open</button>
       </div>

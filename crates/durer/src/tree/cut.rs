@@ -40,8 +40,7 @@ pub(super) fn cut(pair: Pair<'_>, most: usize) -> (Tree, Option<Tree>) {
         return (tree.clone(), other.cloned());
     }
     let mut kept = keep(pair, most).into_iter();
-    let (mine, theirs) =
-        (New::new(kept.next().unwrap_or_default()), New::new(kept.next().unwrap_or_default()));
+    let (mine, theirs) = (New::of(kept.next().unwrap_or_default()), New::of(kept.next().unwrap_or_default()));
     let mut small = mine.tree(tree);
     small.diff = tree.diff.as_ref().map(|diff| renumbered(diff, &mine, &theirs));
     (small, other.map(|t| theirs.tree(t)))
@@ -151,7 +150,7 @@ struct New {
 }
 
 impl New {
-    fn new(kept: Vec<bool>) -> Self {
+    fn of(kept: Vec<bool>) -> Self {
         let mut next = 0..;
         Self { ids: kept.into_iter().map(|stays| stays.then(|| next.next()).flatten()).collect() }
     }
