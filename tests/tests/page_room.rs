@@ -102,15 +102,13 @@ fn is_part_of(small: &Tree, whole: &Tree) {
     // Its value folds from what is there and what is told.
     let children = small.children();
     for (id, node) in small.nodes.iter().enumerate() {
-        let mut sum = plain(node.local).map(f64::from);
         for i in 0..3 {
-            sum[i] += f64::from(node.left_out.map_or(0.0, |l| l.result[i].0));
-            for &child in &children[id] {
-                let child = &small.nodes[child];
-                sum[i] += f64::from(child.weight[i].0) * f64::from(child.result[i].0);
-            }
+            let own = f64::from(node.local[i].0) + f64::from(node.left_out.map_or(0.0, |l| l.result[i].0));
+            let below = children[id].iter().map(|&child| &small.nodes[child]);
+            let sum: f64 =
+                own + below.map(|c| f64::from(c.weight[i].0) * f64::from(c.result[i].0)).sum::<f64>();
             let result = f64::from(node.result[i].0);
-            assert!((sum[i] - result).abs() <= 2e-5 * (1.0 + result.abs()), "ray {id}: {} {result}", sum[i]);
+            assert!((sum - result).abs() <= 2e-5 * (1.0 + result.abs()), "ray {id}: {sum} {result}");
         }
     }
 }
