@@ -64,6 +64,13 @@ impl Comparison {
         found
     }
 
+    /// What it says of the whole, without a word about single rays.
+    pub(super) fn without_lists(&self) -> Self {
+        let (options, summary) = (self.options.clone(), self.summary.clone());
+        let Self { before, after, relative, .. } = *self;
+        Self { options, summary, before, after, relative, ..Self::default() }
+    }
+
     fn align(&mut self, tree: &Tree, other: &Tree) {
         let (mine, theirs) = (tree.children(), other.children());
         let mut partner_of = vec![None; tree.nodes.len()];

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     compare::Comparison,
+    cut::LeftOut,
     number::{Direction, Metres, Number, Place, Rgb},
 };
 
@@ -72,6 +73,9 @@ pub struct Tree {
     /// Against the same sample under other settings (`--diff`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diff: Option<Comparison>,
+    /// In the page only: the rays of the tree that there was no room for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
 }
 
 /// One ray.
@@ -169,6 +173,12 @@ pub struct Node {
     /// Boxes in the order they were tested, if that was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub walk: Vec<TestedBox>,
+    /// In the page only, where the tree was cut: its id in the whole one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole_id: Option<u32>,
+    /// In the page only: what of the rays below it there was no room for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
 }
 
 /// What a ray was compared with when it was given up.
