@@ -78,8 +78,8 @@ pub const FILES: &[&str] = &[
     "gltf/OrientationTest.glb",
 ];
 
-/// Whitted's integrator, Cook's in both ways to combine samples, and ray casting, for small pictures.
-pub fn settings() -> [Options; 4] {
+/// Whitted's integrator, Cook's in both ways to combine samples, ray casting, and the paths, for small pictures.
+pub fn settings() -> [Options; 7] {
     let of = |integrator: &str, distribution: Distribution| Options {
         integrator: Some(integrator.to_owned()),
         width: Some(64),
@@ -100,5 +100,8 @@ pub fn settings() -> [Options; 4] {
         of("distributed", distributed(Sampling::Shared, 4)),
         Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
         Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
+        of("path", none),
+        of("direct", none),
+        Options { max_depth: None, ..of("ambientocclusion", none) },
     ]
 }

@@ -32,6 +32,15 @@ fn distributed() -> Options {
     }
 }
 
+fn paths() -> Options {
+    Options {
+        integrator: Some("path".to_owned()),
+        samples: Some(1),
+        max_depth: Some(8),
+        ..Options::default()
+    }
+}
+
 /// Trees of pixels all over the picture.
 fn trees(scene: &Prepared, count: u32) -> Vec<RayTree> {
     let (w, h) = (scene.scene.view.width, scene.scene.view.height);
@@ -62,6 +71,9 @@ fn weights_are_what_their_factors_give() {
         ("penumbra", built_in("penumbra", &distributed())),
         ("beaker", built_in("beaker", &distributed())),
         ("rough", scene(rough, &distributed())),
+        ("rough, paths", scene(rough, &paths())),
+        ("cornell, paths", built_in("cornell", &paths())),
+        ("beaker, paths", built_in("beaker", &paths())),
     ];
     for (name, scene) in &scenes {
         for tree in trees(scene, 120) {
@@ -74,7 +86,8 @@ fn weights_are_what_their_factors_give() {
                     continue;
                 };
                 let share = chosen.mis.filter(|_| chosen.by == ChosenBy::Light).unwrap_or(1.0);
-                let factor = chosen.cos.unwrap_or(1.0) * share / (chosen.rays as f32 * chosen.chance);
+                let factor =
+                    chosen.cos.unwrap_or(1.0) * share / (chosen.rays as f32 * chosen.chance * chosen.kept);
                 match (chosen.by, chosen.f) {
                     (ChosenBy::Light, Some(f)) => {
                         assert!(equal(f * factor, node.weight), "{name}: {chosen:?} {:?}", node.weight);

@@ -102,7 +102,11 @@ fn scenes(reason: StopReason) -> Option<Vec<(&'static str, String)>> {
             vec![("\"whitted\"", format!("{sun}{GREY}{WALL}")), ("\"cast\"", format!("{sun}{GREY}{WALL}"))]
         }
         StopReason::Cancelled => vec![("\"whitted\" \"float mincontribution\" 0", format!("{SKY}{MIRRORS}"))],
-        StopReason::Roulette | StopReason::Clamped => return None,
+        StopReason::Roulette => {
+            let dark = "Material \"diffuse\" \"rgb reflectance\" [.01 .02 .03]\n";
+            vec![("\"path\" \"integer roulettedepth\" 0", format!("{SKY}{dark}{WALL}"))]
+        }
+        StopReason::Clamped => return None,
     })
 }
 
@@ -117,7 +121,7 @@ fn check(node: &TreeNode, tree: &RayTree, what: &str) {
     let is_shadow = node.kind == RayKind::Shadow;
     assert_eq!(
         node.limit.is_some(),
-        matches!(reason, StopReason::DepthLimit | StopReason::ContributionBelowCutoff),
+        matches!(reason, StopReason::DepthLimit | StopReason::ContributionBelowCutoff | StopReason::Roulette),
         "{what}"
     );
     if reason.is_untraced() {
@@ -160,7 +164,11 @@ fn check(node: &TreeNode, tree: &RayTree, what: &str) {
                 "{what}"
             );
         }
-        StopReason::Roulette | StopReason::Clamped => panic!("{what}: nothing gives that yet"),
+        // Those that live carry what these do not.
+        StopReason::Roulette => {
+            assert!(node.limit.is_some_and(|l| l.value >= l.threshold) && node.lost.is_black(), "{what}")
+        }
+        StopReason::Clamped => panic!("{what}: nothing gives that yet"),
     }
 }
 

@@ -115,7 +115,7 @@ function material(g: Group, node: Node): Fact[] {
 
 function drawn(g: Group, node: Node): Fact[] {
   if (node.drawn) {
-    g.value("from", node.drawn.from).value("lobe", node.drawn.lobe).value("rays that share", node.drawn.rays).value("chance of this light", node.drawn.chance === 1 ? null : node.drawn.chance).value("pdf", node.drawn.pdf, "1/sr").value("pdf of the other way", node.drawn.other_pdf, "1/sr");
+    g.value("from", node.drawn.from).value("lobe", node.drawn.lobe).value("rays that share", node.drawn.rays).value("chance of this light", node.drawn.chance === 1 ? null : node.drawn.chance).value("chance to live", node.drawn.kept === 1 ? null : node.drawn.kept).value("pdf", node.drawn.pdf, "1/sr").value("pdf of the other way", node.drawn.other_pdf, "1/sr");
     g.value("mis weight", node.drawn.mis).value("f", node.drawn.f, "1/sr").value("cos", node.drawn.cos);
   }
   for (const numbers of node.random ?? []) g.value(`random: ${numbers.dim}`, numbers.u);

@@ -120,7 +120,12 @@ function weight(g: Grove, node: Node): Formula | null {
     up.push(say(" / "), sym("chance"));
     down.push(say(" / "), val(num(chance)));
   }
-  const factor = ((d.cos ?? 1) * (d.mis ?? 1)) / ((d.from === "light" ? 1 : (d.pdf ?? 1)) * rays * chance);
+  const kept = d.kept ?? 1;
+  if (kept < 1) {
+    up.push(say(" / "), sym("kept"));
+    down.push(say(" / "), val(num(kept)));
+  }
+  const factor = ((d.cos ?? 1) * (d.mis ?? 1)) / ((d.from === "light" ? 1 : (d.pdf ?? 1)) * rays * chance * kept);
   const product = d.f ? (d.f.map((x) => x * factor) as Rgb) : null;
   const agrees = product !== null && nearRgb(product, node.weight);
   // What else went into it, as the share of light that is left on the way, is not repeated here.

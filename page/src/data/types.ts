@@ -38,6 +38,8 @@ export interface Drawn {
   rays?: number | null;
   /** Probability with which this light was chosen among all. */
   chance?: number | null;
+  /** Probability with which chance let the ray live. */
+  kept?: number | null;
 }
 
 export interface TextureLookup {

@@ -286,8 +286,10 @@ pub struct Drawn {
     pub lobe: Option<String>,
     /// How many rays share this one's place.
     pub rays: u32,
-    /// Probability with which this light was chosen among all; 1 where there was no choice.
+    /// Probability with which this light was chosen among all, or a path's sharp direction; 1 where there was no choice.
     pub chance: Number,
+    /// Probability with which chance let the ray live (Russian roulette); 1 where it was not asked.
+    pub kept: Number,
     /// Density of the choice, 1/sr.
     pub pdf: Option<Number>,
     /// Density with which the other way of choosing gives the same direction, 1/sr.

@@ -65,6 +65,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
         lobe: choice.lobe.map(str::to_owned),
         rays: choice.rays,
         chance: Number(choice.chance),
+        kept: Number(choice.kept),
         pdf: choice.pdf.map(Number),
         other_pdf: choice.other_pdf.map(Number),
         mis: choice.mis.map(Number),

@@ -142,6 +142,12 @@ pub struct BoxTest {
 }
 
 impl TreeNode {
+    /// What share of the light along this ray the surface hands on that it left: its weight without what comes of choosing
+    /// it among others, and without what the index of refraction does to radiance. `above` is the ray that ended there.
+    pub fn share(&self, above: &TreeNode) -> Spectrum {
+        let chance = self.chosen.map_or(1.0, |chosen| chosen.chance * chosen.kept);
+        self.weight * (chance * above.path.compression / self.path.compression)
+    }
     /// What this ray itself adds to the pixel: the contributions of all nodes sum to the pixel, up to rounding.
     pub fn contribution(&self) -> Spectrum {
         self.throughput * self.local

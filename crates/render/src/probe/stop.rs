@@ -30,7 +30,7 @@ pub enum StopReason {
     NanRejected,
     /// Not traced: the record was given up, as the tree has as many rays as were allowed.
     Cancelled,
-    /// Ended by chance, the others standing for it. Of integrators to come.
+    /// Not traced: ended by chance, the others standing for it.
     Roulette,
     /// The value was cut. Of integrators to come.
     Clamped,
@@ -55,7 +55,7 @@ impl StopReason {
         Self::Clamped,
     ];
     /// Those that no integrator gives yet.
-    pub const RESERVED: [Self; 2] = [Self::Roulette, Self::Clamped];
+    pub const RESERVED: [Self; 1] = [Self::Clamped];
 
     /// The word in exports and statistics.
     pub fn word(self) -> &'static str {
@@ -101,8 +101,10 @@ impl StopReason {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limit {
     /// Of the ray: bounces at [`StopReason::DepthLimit`] (surfaces passed in a row if there are too many of those), the
-    /// largest lane of its share in the pixel at [`StopReason::ContributionBelowCutoff`].
+    /// largest lane of its share in the pixel at [`StopReason::ContributionBelowCutoff`], the number drawn at
+    /// [`StopReason::Roulette`].
     pub value: f32,
-    /// What was allowed: bounces at most, or the share at and below which rays are not traced.
+    /// What was allowed: bounces at most, the share at and below which rays are not traced, or the number from which on
+    /// they are not.
     pub threshold: f32,
 }

@@ -33,7 +33,7 @@ impl Checked<'_> {
             let sum = self
                 .below(index)
                 .filter(|(_, child)| sharp(child.kind))
-                .fold(Spectrum::BLACK, |sum, (_, child)| sum + child.weight);
+                .fold(Spectrum::BLACK, |sum, (_, child)| sum + child.share(node));
             let most = lanes(sum).into_iter().fold(0.0, f64::max);
             if most > 1.0 + TOLERANCE {
                 let name = self.name(hit);

@@ -141,7 +141,7 @@ impl Checked<'_> {
             _ => (1.0 - reflected, lobe.transmittance, "transmitted"),
         };
         let full = lanes(shading.arrived * factor);
-        let told = lanes(child.weight);
+        let told = lanes(child.share(node));
         let is_wrong = |i: usize| (told[i] - share * full[i]).abs() > TOLERANCE * full[i].max(1e-3);
         if !(0..3).any(is_wrong) {
             return;
@@ -154,7 +154,7 @@ impl Checked<'_> {
             words::number(sides.n2),
             words::degrees_of(sides.cos),
             words::color(full),
-            words::light(child.weight)
+            words::light(child.share(node))
         );
         self.add(Law::Fresnel, number, &name, text);
     }

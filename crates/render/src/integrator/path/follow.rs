@@ -15,7 +15,7 @@ use super::{
 use crate::{
     Contribution, Lit, PathRay, SampleCx, Value,
     media::{Boundary, Crossing},
-    probe::{Choice, Probe, RayKind, StopReason, TreeNode},
+    probe::{Choice, Limit, Probe, RayKind, StopReason, TreeNode},
 };
 
 /// Hits that are summed at once. Longer paths are summed in parts, the last first.
@@ -70,7 +70,13 @@ impl<'a, P: Probe> Follow<'a, P> {
             Some(event) => {
                 self.walk.send_shadow(&node.path, event.light, (event.point, event.unoccluded), parent)
             }
-            None => self.trace(&node.path, node.kind, parent),
+            None => match node.limit.filter(|_| node.stop == Some(StopReason::Roulette)) {
+                Some(limit) => {
+                    self.report_roulette((&node.path, node.kind), limit, parent);
+                    Spectrum::BLACK
+                }
+                None => self.trace(&node.path, node.kind, parent),
+            },
         };
         out.value = Value::Radiance(radiance);
     }
@@ -182,19 +188,18 @@ impl<'a, P: Probe> Follow<'a, P> {
         };
         let kept = self.kept(&child);
         let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+        let lives = u < kept;
         if P::RECORDS {
-            self.report_scatter(&sampler, (s, &scattered), kept);
+            self.report_scatter(&sampler, (s, &scattered), if lives { kept } else { 1.0 });
         }
-        if u >= kept {
+        if !lives {
             if P::ACTIVE {
-                let refused = self.walk.probe.ray(id, &child, kind);
-                self.walk.probe.stop(refused, StopReason::Roulette, child.throughput);
-                self.walk.probe.result(refused, Spectrum::BLACK);
+                self.report_roulette((&child, kind), Limit { value: u, threshold: kept }, id);
             }
             return None;
         }
         child.weight = child.weight / kept;
-        child.throughput = child.throughput / kept;
+        child.throughput = parent.throughput * child.weight;
         Some((child, kind))
     }
 

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     PathRay,
     media::Crossing,
-    probe::{Choice, ChosenBy, LightEvent, Probe, RandomNumbers, RayKind, StopReason},
+    probe::{Choice, ChosenBy, LightEvent, Limit, Probe, RandomNumbers, RayKind, StopReason},
 };
 
 impl<P: Probe> Follow<'_, P> {
@@ -106,5 +106,13 @@ impl<P: Probe> Follow<'_, P> {
             random: spread.then(|| RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
             ..Choice::sharp()
         });
+    }
+
+    /// A ray that chance ended. Nothing is lost: those that live carry as much more.
+    pub(super) fn report_roulette(&mut self, (ray, kind): (&PathRay, RayKind), limit: Limit, id: P::Id) {
+        let refused = self.walk.probe.ray(id, ray, kind);
+        self.walk.probe.limit(refused, limit);
+        self.walk.probe.stop(refused, StopReason::Roulette, Spectrum::BLACK);
+        self.walk.probe.result(refused, Spectrum::BLACK);
     }
 }
