@@ -11,12 +11,19 @@ mod infinite;
 mod point;
 mod sky_blur;
 mod spot;
+mod steps;
 mod track;
 
-use std::fmt::Debug;
+use std::{
+    f32::consts::{PI, TAU},
+    fmt::Debug,
+};
 
 use durer_core::{
-    math::{Normal3, Point3, Vector3},
+    math::{
+        Normal3, Point2, Point3, Vector3,
+        float::{cos, sin},
+    },
     sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
@@ -95,7 +102,8 @@ pub trait Light: Debug + Send + Sync {
         let _ = (basis, surface, wo);
         Spectrum::BLACK
     }
-    /// Whether it surrounds the scene: it is not sampled, but has an ambient term or is seen by rays that left.
+    /// Whether it surrounds the scene: it has an ambient term, which stands for shadow rays where no path is drawn, or is
+    /// seen by rays that left.
     fn surrounds(&self) -> bool {
         false
     }
@@ -175,6 +183,16 @@ fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
         Some(total) => color * (scale * total / (reach * color.luminance())),
         None => color * scale,
     }
+}
+
+/// Density of directions that are spread evenly over the sphere, 1/sr.
+const UNIFORM: f32 = 0.25 / PI;
+
+/// One of them and its density; `u` in `[0, 1)²`.
+fn uniform_direction(u: Point2) -> (Vector3, f32) {
+    let r = 2.0 * (u.x * (1.0 - u.x)).sqrt();
+    let azimuth = TAU * u.y;
+    (Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - 2.0 * u.x), UNIFORM)
 }
 
 /// The unit vector from `from` to `to`; complains if they are equal.

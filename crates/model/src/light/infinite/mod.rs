@@ -1,8 +1,9 @@
 //! A sky all around: of the same radiance everywhere, or a picture.
 //!
-//! Rays that leave the scene see it; it is its own ambient term and its own glossy reflection, without shadows: tabulated
+//! Rays that leave the scene see it, and paths choose directions of it: evenly, or by the picture (`density.rs`). It is its own ambient term and its own glossy reflection, without shadows: tabulated
 //! from the picture (`blur.rs`, `pyramid.rs`). In the light's own space z is up (`layout.rs`).
 mod blur;
+mod density;
 mod layout;
 mod panorama;
 mod pyramid;
@@ -10,13 +11,14 @@ mod pyramid;
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Normal3, Transform, Vector3},
+    math::{Normal3, Point3, Transform, Vector3},
+    sampling::{Dim, Sampler},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use self::{blur::Blur, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, Track, scaled};
+use self::{blur::Blur, density::Density, layout::Layout, panorama::Panorama, pyramid::Pyramid};
+use super::{Light, LightCx, LightSample, Track, UNIFORM, scaled, uniform_direction};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -30,7 +32,19 @@ pub struct Infinite {
 struct Picture {
     panorama: Panorama,
     blur: Blur,
+    /// `None` if it is black.
+    density: Option<Density>,
     render_from_light: Transform,
+    /// By how much the placement shrinks volumes: 1 but for those that are no rotations.
+    shrinking: f32,
+}
+
+impl Picture {
+    /// Density of the unit direction `d` in render space which is `towards`, of any length, in the light's own: the solid
+    /// angle about it grows by `|det M| / |M d|^3`.
+    fn spread(&self, density: f32, towards: Vector3) -> f32 {
+        density * self.shrinking / (towards.length_squared() * towards.length())
+    }
 }
 
 impl Kind for Infinite {
@@ -114,7 +128,9 @@ impl Kind for Infinite {
             scale *= wanted / found;
         }
         let blur = Blur::of(&pyramid, panorama.size()[1]);
-        let picture = Box::new(Picture { panorama, blur, render_from_light: Transform::IDENTITY });
+        let density = Density::of(&panorama);
+        let render_from_light = Transform::IDENTITY;
+        let picture = Box::new(Picture { panorama, blur, density, render_from_light, shrinking: 1.0 });
         Some(Box::new(Self { radiance: Color::gray(scale), picture: Some(picture) }))
     }
 }
@@ -131,8 +147,37 @@ impl Infinite {
 impl Light for Infinite {
     fn place(&mut self, track: &Track) {
         if let Some(picture) = &mut self.picture {
-            picture.render_from_light = Transform::from_f64(&track.at(f32::NEG_INFINITY));
+            let placement = track.at(f32::NEG_INFINITY);
+            picture.render_from_light = Transform::from_f64(&placement);
+            picture.shrinking = (1.0 / placement.matrix3.determinant().abs()) as f32;
         }
+    }
+    fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let u = sampler.d2(Dim::Light);
+        let (wi, pdf) = match &self.picture {
+            None => uniform_direction(u),
+            Some(picture) => {
+                let (d, pdf) = picture.density.as_ref()?.draw([u.x, u.y]);
+                let wi = picture.render_from_light.vector(d).normalize();
+                (wi, picture.spread(pdf, picture.render_from_light.inverse().vector(wi)))
+            }
+        };
+        let weight = self.escaped(cx.basis, wi) / pdf;
+        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
+    }
+    fn reach(&self, _p: Point3, _time: f32) -> f32 {
+        let mean = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
+        PI * self.radiance.luminance() * self.picture.as_deref().map_or(1.0, mean)
+    }
+    fn is_sampled(&self) -> bool {
+        let shines = |picture: &Picture| picture.density.is_some();
+        self.radiance.luminance() > 0.0 && self.picture.as_deref().is_none_or(shines)
+    }
+    fn pdf_escaped(&self, _cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
+        let Some(picture) = &self.picture else { return UNIFORM };
+        let towards = picture.render_from_light.inverse().vector(d);
+        let density = picture.density.as_ref().map_or(0.0, |density| density.at(towards.normalize()));
+        picture.spread(density, towards)
     }
     fn surrounds(&self) -> bool {
         true
