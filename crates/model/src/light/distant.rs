@@ -1,5 +1,11 @@
 //! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. The sun.
-use durer_core::{math::Point3, sampling::Sampler, spectrum::Color};
+use std::f32::consts::PI;
+
+use durer_core::{
+    math::{Normal3, Point3, float::sqr},
+    sampling::Sampler,
+    spectrum::Color,
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Light, LightCx, LightSample, Track, axis, scaled, track::Anchor};
@@ -58,7 +64,11 @@ impl Light for Distant {
         let (_, direction) = self.anchor.at(cx.time);
         (!weight.is_black()).then_some(LightSample { wi: -direction, point: None, weight, pdf: None })
     }
-    fn reach(&self, _p: Point3, _time: f32) -> f32 {
-        self.irradiance.luminance()
+    fn reach(&self, _p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        let (_, direction) = self.anchor.at(time);
+        self.irradiance.luminance() * n.map_or(1.0, |n| (-n.dot(direction)).max(0.0))
+    }
+    fn power(&self, radius: f32) -> f32 {
+        PI * sqr(radius) * self.irradiance.luminance()
     }
 }

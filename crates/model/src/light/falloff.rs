@@ -1,7 +1,7 @@
 //! How a light without extent fades with distance.
 use std::f32::consts::PI;
 
-use durer_core::math::{Point3, Vector3};
+use durer_core::math::{Normal3, Point3, Vector3};
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
 
 /// Fading with distance.
@@ -38,5 +38,10 @@ impl Falloff {
             Self::None => PI,
         };
         irradiance.is_finite().then(|| (d / distance, irradiance))
+    }
+    /// The irradiance per intensity at `p` on a surface of unit normal `n`, or facing the light.
+    pub(super) fn reach(self, light: Point3, p: Point3, n: Option<Normal3>) -> f32 {
+        let cos = |wi: Vector3| n.map_or(1.0, |n| n.dot(wi).max(0.0));
+        self.towards(light, p).map_or(0.0, |(wi, irradiance)| irradiance * cos(wi))
     }
 }

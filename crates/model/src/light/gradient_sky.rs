@@ -15,7 +15,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightCx, LightSample, Track, UNIFORM, sky_blur::SkyBlur, steps};
+use super::{LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, sky_blur::SkyBlur, sky_power, steps};
 
 /// Belts of equal solid angle, on each of which directions are drawn evenly.
 const BELTS: usize = 128;
@@ -138,8 +138,12 @@ impl Light for GradientSky {
         let weight = self.escaped(cx.basis, wi) / pdf;
         (share > 0.0 && !weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
     }
-    fn reach(&self, _p: Point3, _time: f32) -> f32 {
-        PI * self.mean
+    fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
+        let least = LEAST_REACH * self.mean;
+        PI * n.map_or(self.mean, |n| self.ambient(Basis::Rgb, n).mean().max(least))
+    }
+    fn power(&self, radius: f32) -> f32 {
+        sky_power(self.mean, radius)
     }
     fn is_sampled(&self) -> bool {
         self.belts[BELTS - 1] > 0.0

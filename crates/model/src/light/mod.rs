@@ -13,6 +13,7 @@ mod sky_blur;
 mod spot;
 mod steps;
 mod track;
+mod tree;
 
 use std::{
     f32::consts::{PI, TAU},
@@ -22,7 +23,7 @@ use std::{
 use durer_core::{
     math::{
         Normal3, Point2, Point3, Vector3,
-        float::{cos, sin},
+        float::{cos, sin, sqr},
     },
     sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
@@ -37,7 +38,9 @@ pub use self::{
     infinite::Infinite,
     point::Point,
     spot::Spot,
+    steps::Steps,
     track::Track,
+    tree::{Cone, LightBounds, LightTree, Picked},
 };
 use crate::Surface;
 
@@ -75,12 +78,19 @@ pub trait Light: Debug + Send + Sync {
         let _ = (cx, p, sampler);
         None
     }
-    /// A cheap estimate of the irradiance at `p` on a surface that faces the light, by which one light is chosen among
-    /// several: above 0 wherever [`Light::sample`] may give something. W/m², in luminance.
-    fn reach(&self, p: Point3, time: f32) -> f32 {
-        let _ = (p, time);
+    /// Where it is and how it shines, by which one of many lights is chosen; `None` for lights infinitely far away and for
+    /// those that do not fade with distance: they are chosen by [`Light::reach`].
+    fn bounds(&self) -> Option<LightBounds> {
+        None
+    }
+    /// An estimate of the irradiance at `p` on a surface of unit normal `n`, or facing the light, if it has no bounds: above
+    /// 0 wherever [`Light::sample`] may give something. W/m², in luminance.
+    fn reach(&self, p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        let _ = (p, n, time);
         1.0
     }
+    /// Luminance of all that it sends out, or into a scene of this `radius` if it is infinitely far away. W.
+    fn power(&self, radius: f32) -> f32;
     /// The density with which [`Light::sample`], asked at `from`, gives the direction of a point of this light, 1/sr; 0 if
     /// that side of it does not shine, and for lights that rays cannot meet.
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {
@@ -183,6 +193,14 @@ fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
         Some(total) => color * (scale * total / (reach * color.luminance())),
         None => color * scale,
     }
+}
+
+/// The share of its mean that a sky counts for at least where its ambient term, which is tabulated, says next to nothing.
+const LEAST_REACH: f32 = 0.05;
+
+/// What a sky of this mean radiance sends into a sphere of that radius.
+fn sky_power(mean: f32, radius: f32) -> f32 {
+    4.0 * sqr(PI * radius) * mean
 }
 
 /// Density of directions that are spread evenly over the sphere, 1/sr.

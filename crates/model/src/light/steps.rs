@@ -2,6 +2,7 @@
 //!
 //! The share of each is the difference of two sums as they are stored, so that it is exactly the chance of being drawn. A
 //! share that rounding would lose is raised to `2^-20` of the whole: what weighs anything can be drawn.
+use durer_core::math::Guide;
 
 /// The least share of what weighs anything.
 const LEAST: f64 = 1.0 / (1 << 20) as f64;
@@ -37,6 +38,32 @@ pub(super) fn share(sums: &[f32], index: usize) -> f32 {
     sums[index] - index.checked_sub(1).map_or(0.0, |i| sums[i])
 }
 
+/// Sums of shares by themselves.
+#[derive(Clone, Debug)]
+pub struct Steps {
+    sums: Vec<f32>,
+    guide: Guide,
+}
+
+impl Steps {
+    /// From weights, none below 0; `None` if none is above 0 either.
+    pub fn new(mut weights: Vec<f32>) -> Option<Self> {
+        let total = accumulate(&mut weights);
+        let guide = Guide::new(&weights);
+        (total > 0.0).then_some(Self { sums: weights, guide })
+    }
+    /// The index that `u` in `[0, 1)` chooses, and the chance of that.
+    pub fn choose(&self, u: f32) -> (usize, f32) {
+        let last = self.sums.len() - 1;
+        let index = self.guide.upto(u, last, |i| self.sums[i]);
+        (index, self.chance(index))
+    }
+    /// The chance of an index.
+    pub fn chance(&self, index: usize) -> f32 {
+        share(&self.sums, index)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,6 +79,12 @@ mod tests {
             assert!((0.0..1.0).contains(&rest) && chance == share(&sums, index));
             counts[index] += 1.0 / f64::from(n);
         }
+        let steps = Steps::new(vec![0.0, 1.0, 1e-12, 0.0, 2.0, 1.0, 0.0]).expect("some weight");
+        for i in 0..10_000 {
+            let u = i as f32 / 1e4;
+            let (index, _, chance) = pick(&sums, u);
+            assert_eq!(steps.choose(u), (index, chance));
+        }
         for (index, count) in counts.iter().enumerate() {
             assert!((count - f64::from(share(&sums, index))).abs() < 1e-6, "{index}: {count}");
         }
@@ -63,5 +96,6 @@ mod tests {
         let mut sums = [0.0; 3];
         assert_eq!(accumulate(&mut sums), 0.0);
         assert_eq!(sums, [0.0; 3]);
+        assert!(Steps::new(vec![0.0]).is_none() && Steps::new(Vec::new()).is_none());
     }
 }

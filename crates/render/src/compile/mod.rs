@@ -18,7 +18,7 @@ use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{light::Light, shape::Geometry};
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Media, MediumStack, Scene, integrator::NOT_YET, media};
+use crate::{Media, MediumStack, Scene, integrator::NOT_YET, light_sampler::LightChooser, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
 pub use nodes::integrator;
@@ -74,6 +74,7 @@ pub fn compile(
     let (shapes, of_shapes) = timed(|| nodes.shapes());
     let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
+    let radius = if bounds.is_empty() { 1.0 } else { 0.5 * bounds.diagonal().length() };
     let camera = camera::chosen(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
     let camera = options.lens.given_to(camera);
@@ -117,7 +118,7 @@ pub fn compile(
         material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
-        sources: those(|light| light.is_sampled()),
+        chooser: LightChooser::new(&lights, radius),
         lights,
         light_names,
         view,

@@ -6,6 +6,7 @@
 mod cone;
 mod emitter;
 mod form;
+mod known;
 mod piece;
 mod placed;
 mod rectangle;
@@ -24,7 +25,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightCx, LightHit, LightSample, POWER, Track};
+use super::{Light, LightBounds, LightCx, LightHit, LightSample, POWER, Track};
 use crate::{Surface, shape::Geometry};
 use emitter::Emitter;
 
@@ -95,7 +96,7 @@ impl Area {
         track: Track,
         orientation: Orientation,
     ) -> Result<Self, &'static str> {
-        let emitter = Emitter::new(geometry, track, orientation == Orientation::Reversed)?;
+        let emitter = Emitter::new(geometry, track, emission.sides, orientation == Orientation::Reversed)?;
         let sides = if emission.sides == Sides::Both { 2.0 } else { 1.0 };
         let factor = emission.power.map_or(1.0, |_| 1.0 / (PI * sides * emitter.area));
         Ok(Self { emitter, radiance: emission.radiance * factor as f32, sides: emission.sides })
@@ -143,8 +144,14 @@ impl Light for Area {
         Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32) })
     }
 
-    fn reach(&self, p: Point3, _time: f32) -> f32 {
-        self.emitter.size_from(p.to_f64(), self.sides == Sides::Both) * self.radiance.luminance()
+    fn bounds(&self) -> Option<LightBounds> {
+        let known = self.emitter.known;
+        Some(LightBounds { intensity: known.intensity * self.radiance.luminance(), ..known })
+    }
+
+    fn power(&self, _radius: f32) -> f32 {
+        let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
+        self.radiance.luminance() * (PI * sides * self.emitter.area) as f32
     }
 
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {

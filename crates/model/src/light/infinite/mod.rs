@@ -18,7 +18,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{blur::Blur, density::Density, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, LightCx, LightSample, Track, UNIFORM, scaled, uniform_direction};
+use super::{LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, scaled, sky_power, uniform_direction};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -136,6 +136,11 @@ impl Kind for Infinite {
 }
 
 impl Infinite {
+    /// Mean luminance over the sphere.
+    fn mean(&self) -> f32 {
+        let of = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
+        self.radiance.luminance() * self.picture.as_deref().map_or(1.0, of)
+    }
     /// What `look` says of the picture in a direction of render space; the constant radiance if there is none.
     fn emitted(&self, basis: Basis, d: Vector3, look: impl Fn(&Picture, Vector3) -> [f32; 3]) -> Spectrum {
         let Some(picture) = &self.picture else { return basis.emission(self.radiance) };
@@ -165,9 +170,17 @@ impl Light for Infinite {
         let weight = self.escaped(cx.basis, wi) / pdf;
         (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
     }
-    fn reach(&self, _p: Point3, _time: f32) -> f32 {
-        let mean = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
-        PI * self.radiance.luminance() * self.picture.as_deref().map_or(1.0, mean)
+    fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
+        let mean = self.mean();
+        match n {
+            Some(n) if self.picture.is_some() => {
+                PI * self.ambient(Basis::Rgb, n).mean().max(LEAST_REACH * mean)
+            }
+            _ => PI * mean,
+        }
+    }
+    fn power(&self, radius: f32) -> f32 {
+        sky_power(self.mean(), radius)
     }
     fn is_sampled(&self) -> bool {
         let shines = |picture: &Picture| picture.density.is_some();
