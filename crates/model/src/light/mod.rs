@@ -8,6 +8,7 @@ mod distant;
 mod falloff;
 mod gradient_sky;
 mod infinite;
+mod picture;
 mod point;
 mod sky_blur;
 mod spot;
@@ -32,7 +33,7 @@ use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
     ambient::Ambient,
-    area::{Area, Emission, Orientation},
+    area::{Area, Emission, Looks, Materials, Orientation, Textures},
     distant::Distant,
     gradient_sky::GradientSky,
     infinite::Infinite,

@@ -8,8 +8,10 @@ use durer_core::{
     math::{Interval, Motion, Transform},
 };
 use durer_model::{
-    light::{self, AREA_LIGHTS, Area, Emission, LIGHTS, Light, Orientation, Track},
+    light::{self, AREA_LIGHTS, Area, Emission, LIGHTS, Light, Looks, Orientation, Track},
+    material::Material,
     shape::Geometry,
+    texture::Texture,
 };
 use durer_scene::{LightDesc, Node, ShapeDesc, ShapeSource};
 
@@ -26,12 +28,27 @@ pub(super) struct Lights {
     pub(super) of_shapes: Vec<Option<u32>>,
 }
 
+/// What there is to say of the surfaces of a scene.
+pub(super) struct Surfaces<'a> {
+    pub(super) textures: &'a Arc<[Box<dyn Texture>]>,
+    pub(super) materials: &'a Arc<[Box<dyn Material>]>,
+}
+
+impl Surfaces<'_> {
+    /// The looks of a light of this material.
+    fn of(&self, material: Option<u32>) -> Looks {
+        let has_holes = |m: &u32| self.materials.get(*m as usize).is_some_and(|m| m.has_holes());
+        let holes = material.filter(has_holes).map(|m| (Arc::clone(self.materials), m));
+        Looks { textures: Arc::clone(self.textures), holes }
+    }
+}
+
 impl Builder<'_> {
     /// The lights `described`, and those of the description's shapes, which have become `geometry`.
     pub(super) fn lights(
         &mut self,
         described: &[LightDesc],
-        geometry: &[Option<Geometry>],
+        shining: (&[Option<Geometry>], &Surfaces<'_>),
         render_from_world: &DAffine3,
         shutter: Interval,
     ) -> Lights {
@@ -65,19 +82,25 @@ impl Builder<'_> {
             all.lights.push(light);
             all.names.push(name);
         }
-        self.shining(geometry, render_from_world, &mut all);
+        self.shining(shining, render_from_world, &mut all);
         all
     }
 
     /// Adds the lights of shapes that shine.
-    fn shining(&mut self, geometry: &[Option<Geometry>], render_from_world: &DAffine3, all: &mut Lights) {
+    fn shining(
+        &mut self,
+        (geometry, surfaces): (&[Option<Geometry>], &Surfaces<'_>),
+        render_from_world: &DAffine3,
+        all: &mut Lights,
+    ) {
         let mut known: HashMap<*const Node, Option<Emission>> = HashMap::new();
         for (index, (shape, built)) in self.desc.shapes.iter().zip(geometry).enumerate() {
             all.of_shapes.push(None);
             let Some(node) = &shape.area_light else { continue };
-            let emission = *known
+            let emission = known
                 .entry(Arc::as_ptr(node))
-                .or_insert_with(|| self.build(AREA_LIGHTS, "area light", node, &self.desc.textures));
+                .or_insert_with(|| self.build(AREA_LIGHTS, "area light", node, &self.desc.textures))
+                .clone();
             let (Some(emission), Some(geometry)) = (emission, self.geometry(shape, built.as_ref())) else {
                 continue;
             };
@@ -89,7 +112,8 @@ impl Builder<'_> {
             match Area::new(&emission, &geometry, track(&motion), orientation) {
                 Ok(light) => {
                     all.of_shapes[index] = Some(all.lights.len() as u32);
-                    all.lights.push(Box::new(light));
+                    let material = shape.material.map(|m| m.index() as u32);
+                    all.lights.push(Box::new(light.with_looks(surfaces.of(material))));
                     all.names.push(Object::name(shape, index));
                 }
                 Err(message) => {

@@ -11,11 +11,14 @@ mod lights;
 mod nodes;
 mod report;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
-use durer_model::{light::Light, shape::Geometry};
+use durer_model::{light::Light, material::Material, shape::Geometry, texture::Texture};
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
 use crate::{Media, MediumStack, Scene, integrator::NOT_YET, light_sampler::LightChooser, media};
@@ -89,10 +92,12 @@ pub fn compile(
     let origin = world_from_camera.translation;
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
-    let lights = nodes.lights(&lights, &shapes, &render_from_world, shutter);
-
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
+    let materials: Arc<[Box<dyn Material>]> = materials.into();
+    let textures: Arc<[Box<dyn Texture>]> = textures.into();
+    let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
+    let lights = nodes.lights(&lights, (&shapes, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,
         render_from_world,

@@ -15,13 +15,15 @@ use super::{
     Sides,
     form::{Form, mesh_corners, mesh_turns},
     known::{self, Place},
+    looked,
     placed::{Chosen, Placed, choose_triangle, mirrors, triangle_density},
 };
-use crate::shape::Geometry;
+use crate::{shape::Geometry, texture::TextureAt};
 
 /// A shape that shines.
 #[derive(Debug)]
 pub(super) struct Emitter {
+    geometry: Geometry,
     form: Form,
     /// The pieces in their place if they stand still.
     placed: Vec<Placed>,
@@ -72,11 +74,16 @@ impl Emitter {
             Form::Pieces(pieces, _) if track.is_still() => pieces.iter().map(|p| p.placed(&first)).collect(),
             _ => Vec::new(),
         };
-        Ok(Self { form, placed, tree, known, track, reversed, magnitude, area })
+        Ok(Self { geometry: geometry.clone(), form, placed, tree, known, track, reversed, magnitude, area })
     }
 
-    /// A point of the light and how far, at most, each coordinate of its shape may be off as rays find it.
-    pub(super) fn choose(&self, from: DVec3, time: f32, u: [f64; 2]) -> Option<(Chosen, f64)> {
+    /// How far, at most, each coordinate of the shape may be off as rays find it.
+    pub(super) fn magnitude(&self) -> f64 {
+        self.magnitude
+    }
+
+    /// A point of the light, and which piece or triangle it is on.
+    pub(super) fn choose(&self, from: DVec3, time: f32, u: [f64; 2]) -> Option<(Chosen, usize)> {
         let (index, rest, share) = match &self.tree {
             Some(tree) => {
                 let picked = tree.choose(Point3::from_f64(from), None, u[0])?;
@@ -99,7 +106,40 @@ impl Emitter {
             }
         };
         let n = if self.reversed { -chosen.n } else { chosen.n };
-        Some((Chosen { n, density: chosen.density * share, ..chosen }, self.magnitude))
+        Some((Chosen { n, density: chosen.density * share, ..chosen }, index))
+    }
+
+    /// Where textures are looked up at point `p`, with normal `n`, of a piece or triangle.
+    pub(super) fn texture_at(&self, time: f32, (p, n): (DVec3, DVec3), piece: usize) -> TextureAt {
+        let m = self.track.at(time);
+        let (back, normal) = (m.inverse(), m.matrix3.transpose() * n);
+        let own = (back.transform_point3(p), normal.normalize_or_zero());
+        let at = match (&self.geometry, &self.form) {
+            (Geometry::Mesh(mesh), _) => looked::on_mesh(mesh, piece, own.0, time),
+            (Geometry::Shapes(parts), Form::Pieces(_, starts)) => {
+                let part = starts.partition_point(|start| *start as usize <= piece).saturating_sub(1);
+                looked::on_shape(&*parts[part], own)
+            }
+            (Geometry::Shapes(parts), Form::Mesh(_)) => looked::on_shape(&*parts[piece], own),
+        };
+        TextureAt { p: Point3::from_f64(p), ..at }
+    }
+
+    /// Points spread over all of it where it first is: `(share of the area, point, normal, piece)`.
+    pub(super) fn spread(&self) -> Vec<(f64, DVec3, DVec3, usize)> {
+        let first = self.track.at(f32::NEG_INFINITY);
+        let areas: Vec<f64> = self.form.areas_at(&first).collect();
+        let mut all = Vec::new();
+        for (index, area) in areas.iter().enumerate() {
+            let share = area / self.area;
+            let count = (share * f64::from(looked::POINTS)).ceil() as u32;
+            for i in 0..count {
+                let (p, n) = looked::point(&self.form, index, looked::place(i));
+                let n = (first.matrix3.inverse().transpose() * n).normalize_or_zero();
+                all.push((share / f64::from(count), first.transform_point3(p), n, index));
+            }
+        }
+        all
     }
 
     /// The chance with which a piece is chosen for `from`.

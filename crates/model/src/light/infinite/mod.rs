@@ -18,7 +18,10 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{blur::Blur, density::Density, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, scaled, sky_power, uniform_direction};
+use super::{
+    LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, picture::unfit, scaled, sky_power,
+    uniform_direction,
+};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -102,7 +105,7 @@ impl Kind for Infinite {
             // The placeholder of a missing picture.
             return Some(Box::new(Self { radiance: Color::new(1.0, 0.0, 1.0), picture: None }));
         };
-        if let Some(reason) = panorama::unfit(&image) {
+        if let Some(reason) = unfit(&image) {
             args.error("filename", format!("{}: {reason}", args.text("filename")));
             return None;
         }
