@@ -4,12 +4,16 @@
 
 mod ambient;
 mod area;
+mod beam;
 mod distant;
 mod falloff;
+mod goniometric;
 mod gradient_sky;
+mod ies;
 mod infinite;
 mod picture;
 mod point;
+mod projection;
 mod sky_blur;
 mod spot;
 mod steps;
@@ -35,9 +39,12 @@ pub use self::{
     ambient::Ambient,
     area::{Area, Emission, Looks, Materials, Orientation, Textures},
     distant::Distant,
+    goniometric::Goniometric,
     gradient_sky::GradientSky,
+    ies::Ies,
     infinite::Infinite,
     point::Point,
+    projection::Projection,
     spot::Spot,
     steps::Steps,
     track::Track,
@@ -155,13 +162,13 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
     Entry::of::<Point>(),
     Entry::of::<Distant>(),
     Entry::of::<Spot>(),
+    Entry::of::<Projection>(),
+    Entry::of::<Goniometric>(),
+    Entry::of::<Ies>(),
     Entry::of::<Infinite>(),
     Entry::of::<GradientSky>(),
     Entry::of::<Ambient>(),
 ];
-
-/// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["goniometric", "projection"];
 
 /// Lights that are all around: what a picture of the surroundings replaces.
 pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky"];

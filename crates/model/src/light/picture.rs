@@ -37,6 +37,17 @@ impl Picture {
         let [r, g, b, _] = self.texels.rgba(x, y);
         Color::new(r.max(0.0), g.max(0.0), b.max(0.0))
     }
+    /// A pixel of magenta: what a missing picture becomes.
+    pub(super) fn placeholder() -> Self {
+        let data = ImageData::F32(vec![1.0, 0.0, 1.0]);
+        Self::new(Arc::new(Image { width: 1, height: 1, channels: 3, data }))
+    }
+    /// The pixel at a place, as [`Picture::at`] counts it.
+    pub(super) fn nearest(&self, [u, v]: [f32; 2]) -> Color {
+        let [width, height] = self.size();
+        let inside = |t: f32, n: u32| ((t * n as f32).max(0.0) as u32).min(n - 1);
+        self.pixel(inside(u, width), inside(v, height))
+    }
     /// The colour at a place, `(0, 0)` the upper left corner and `(1, 1)` the lower right one; beyond the edge it is that of
     /// the edge, and black where a coordinate is no number.
     pub(super) fn at(&self, [u, v]: [f32; 2]) -> Color {

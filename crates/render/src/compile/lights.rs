@@ -8,14 +8,14 @@ use durer_core::{
     math::{Interval, Motion, Transform},
 };
 use durer_model::{
-    light::{self, AREA_LIGHTS, Area, Emission, LIGHTS, Light, Looks, Orientation, Track},
+    light::{AREA_LIGHTS, Area, Emission, LIGHTS, Light, Looks, Orientation, Track},
     material::Material,
     shape::Geometry,
     texture::Texture,
 };
 use durer_scene::{LightDesc, Node, ShapeDesc, ShapeSource};
 
-use super::nodes::{Builder, warn_not_yet};
+use super::nodes::Builder;
 use crate::Object;
 
 /// The lights of a scene.
@@ -52,11 +52,8 @@ impl Builder<'_> {
         render_from_world: &DAffine3,
         shutter: Interval,
     ) -> Lights {
-        let is_not_yet = |desc: &&LightDesc| light::NOT_YET.contains(&desc.node.kind.as_str());
-        let left_out: Vec<&Node> = described.iter().filter(is_not_yet).map(|desc| &desc.node).collect();
-        warn_not_yet("light", "it gives no light", &left_out, self.diagnostics);
         let mut all = Lights { lights: Vec::new(), names: Vec::new(), of_shapes: Vec::new() };
-        for desc in described.iter().filter(|desc| !is_not_yet(desc)) {
+        for desc in described {
             let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
                 continue;
             };

@@ -17,7 +17,8 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use self::{blur::Blur, density::Density, layout::Layout, panorama::Panorama, pyramid::Pyramid};
+pub(super) use self::layout::Layout;
+use self::{blur::Blur, density::Density, panorama::Panorama, pyramid::Pyramid};
 use super::{
     LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, picture::unfit, scaled, sky_power,
     uniform_direction,
