@@ -92,6 +92,10 @@ fn skies() -> Vec<(&'static str, Box<dyn Light>)> {
     skies
 }
 
+fn v(d: DVec3) -> Vector3 {
+    Vector3::from_f64(d)
+}
+
 fn sample(light: &dyn Light, i: u32, n: u32) -> Option<LightSample> {
     light.sample(&CX, Point3::ZERO, &Sampler::new(SamplerKind::Independent, 11, [0, 0], i, n))
 }
@@ -175,6 +179,84 @@ fn irradiance_is_that_of_the_closed_form() {
             assert!((got - expected).abs() < 0.03 * expected + 0.01, "{name}: {got}, expected {expected}");
         }
     }
+}
+
+const PORTAL: [[f32; 3]; 4] = [[1.0, 2.0, -1.0], [1.0, 2.0, 0.5], [-1.0, 2.0, 0.5], [-1.0, 2.0, -1.0]];
+
+fn with_portal(params: Params, corners: &[[f32; 3]]) -> Params {
+    params.with("portal", ValueType::Point3, Data::Floats(corners.concat()))
+}
+
+#[test]
+fn through_a_portal_directions_follow_their_density_and_bring_its_light() {
+    const N: u32 = 50_000;
+    const MOMENTS: [fn(DVec3) -> f64; 3] = [|_| 1.0, |d| d.x, |d| d.z * d.y];
+    let turned = DAffine3::from_rotation_x(1.2);
+    let world = DAffine3::from_translation(DVec3::new(0.1, -0.2, 0.3));
+    for (name, mut sky) in [
+        ("constant", built("infinite", with_portal(Params::new(), &PORTAL), no_image())),
+        ("picture", built("infinite", with_portal(file(), &PORTAL), picture(24, 12, sunny))),
+    ] {
+        sky.place(&Track::still(turned));
+        sky.place_portal(&world);
+        for from in [DVec3::ZERO, DVec3::new(0.5, 1.7, 0.2), DVec3::new(4.0, -2.0, 1.0)] {
+            let p = Point3::from_f64(from);
+            let is_through = |d: DVec3| {
+                let [low, high] = [[-1.0, 2.0, -1.0], [1.0, 2.0, 0.5]]
+                    .map(|c| world.transform_point3(DVec3::from_array(c)));
+                let t = (low.y - from.y) / d.y;
+                let at = from + d * t;
+                t > 0.0 && (low.x..high.x).contains(&at.x) && (low.z..high.z).contains(&at.z)
+            };
+            let pdf = |d: DVec3| f64::from(sky.pdf_escaped(&CX, p, v(d)));
+            let (mut light, mut off, mut moments) = (0.0, 0, [0.0; 3]);
+            for i in 0..N {
+                let sampler = Sampler::new(SamplerKind::Independent, 4, [0, 0], i, N);
+                let Some(s) = sky.sample(&CX, p, &sampler) else { continue };
+                for (sum, moment) in moments.iter_mut().zip(MOMENTS) {
+                    *sum += moment(s.wi.to_f64()) / f64::from(N);
+                }
+                light += f64::from(s.weight.mean()) / f64::from(N);
+                let (claimed, found) = (f64::from(s.pdf.expect("of some extent")), pdf(s.wi.to_f64()));
+                off += u32::from((claimed / found - 1.0).abs() > 1e-2);
+            }
+            // Rounding may put a direction into the next cell.
+            assert!(off < N / 1000, "{name} {from}: {off}");
+            // The edges of the portal cut the cells of a chi-square test: moments instead.
+            for (moment, drawn) in MOMENTS.iter().zip(moments) {
+                let expected =
+                    quadrature::sphere(800, |d| if seen(&*sky, d) > 0.0 { pdf(d) * moment(d) } else { 0.0 });
+                assert!((drawn - expected).abs() < 0.015, "{name} {from}: {drawn}, expected {expected}");
+            }
+            let expected = quadrature::sphere(800, |d| if is_through(d) { seen(&*sky, d) } else { 0.0 });
+            assert!((light / expected - 1.0).abs() < 0.02, "{name} {from}: {light}, expected {expected}");
+        }
+        // From outside it is as without a portal.
+        let outside = Point3::new(0.0, 5.0, 0.0);
+        let all = quadrature::sphere(300, |d| sky.pdf_escaped(&CX, outside, v(d)).into());
+        assert!((all - 1.0).abs() < 0.02, "{name}: {all}");
+        let beside = (0..300).filter(|i| {
+            let d = Vector3::from_f64(Random::new(*i).direction());
+            d.y > 0.0 && sky.pdf_escaped(&CX, outside, d) > 0.0
+        });
+        assert!(beside.count() > 30, "{name}");
+    }
+}
+
+#[test]
+fn portals_are_rectangles() {
+    let refused = |corners: &[[f32; 3]]| {
+        let mut said = Diagnostics::default();
+        let node = Node::new("infinite", with_portal(Params::new(), corners));
+        let entry = find(LIGHTS, "light", &node, &mut said).expect("a registered light");
+        let mut args = Args::check(&node, entry.schema, &[], &mut said);
+        let _ = (entry.build)(&mut args);
+        said.has_errors()
+    };
+    assert!(!refused(&PORTAL));
+    assert!(refused(&PORTAL[..3]));
+    assert!(refused(&[[1.0, 2.0, -1.0], [1.5, 2.0, 0.5], [-1.0, 2.0, 0.5], [-1.5, 2.0, -1.0]]));
+    assert!(refused(&[[0.0; 3]; 4]));
 }
 
 #[test]

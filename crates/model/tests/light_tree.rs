@@ -80,7 +80,8 @@ fn lights(count: usize) -> Vec<Box<dyn Light>> {
             1 => described("spot", gray("I").float("coneangle", 20.0), &track),
             2 => described("spot", gray("I").float("coneangle", 140.0).float("conedeltaangle", 90.0), &track),
             k => {
-                let params = gray("L").with("twosided", ValueType::Bool, Data::Bools(vec![i.is_multiple_of(4)]));
+                let params =
+                    gray("L").with("twosided", ValueType::Bool, Data::Bools(vec![i.is_multiple_of(4)]));
                 let side = if i.is_multiple_of(5) { Orientation::Reversed } else { Orientation::AsMade };
                 Box::new(area(&shapes[k % shapes.len()], params, track, side))
             }

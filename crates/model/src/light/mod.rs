@@ -26,6 +26,7 @@ use std::{
 };
 
 use durer_core::{
+    glam::DAffine3,
     math::{
         Normal3, Point2, Point3, Vector3,
         float::{cos, sin, sqr},
@@ -80,6 +81,10 @@ pub trait Light: Debug + Send + Sync {
     /// Moves the light from its own space into render space, where `track` goes. Lights that surround the scene stand
     /// still where it begins.
     fn place(&mut self, track: &Track);
+    /// Moves what a light has in world space into render space, after [`Light::place`].
+    fn place_portal(&mut self, render_from_world: &DAffine3) {
+        let _ = render_from_world;
+    }
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
     fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {

@@ -72,6 +72,7 @@ impl Builder<'_> {
                 true => Track::still(motion.at(shutter.min.into())),
                 false => track(&motion),
             });
+            light.place_portal(render_from_world);
             let name = match desc.name.as_str() {
                 "" => format!("{} {}", desc.node.kind, all.lights.len()),
                 name => name.to_owned(),

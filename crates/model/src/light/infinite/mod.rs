@@ -1,16 +1,19 @@
 //! A sky all around: of the same radiance everywhere, or a picture.
 //!
-//! Rays that leave the scene see it, and paths choose directions of it: evenly, or by the picture (`density.rs`). It is its own ambient term and its own glossy reflection, without shadows: tabulated
+//! Rays that leave the scene see it, and paths choose directions of it: evenly, by the picture
+//! (`density.rs`), or through a portal (`portal.rs`). It is its own ambient term and its own glossy reflection, without shadows: tabulated
 //! from the picture (`blur.rs`, `pyramid.rs`). In the light's own space z is up (`layout.rs`).
 mod blur;
 mod density;
 mod layout;
 mod panorama;
+mod portal;
 mod pyramid;
 
 use std::f32::consts::PI;
 
 use durer_core::{
+    glam::DAffine3,
     math::{Normal3, Point3, Transform, Vector3},
     sampling::{Dim, Sampler},
     spectrum::{Basis, Color, Spectrum},
@@ -18,7 +21,13 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 pub(super) use self::layout::Layout;
-use self::{blur::Blur, density::Density, panorama::Panorama, pyramid::Pyramid};
+use self::{
+    blur::Blur,
+    density::Density,
+    panorama::Panorama,
+    portal::{Portal, View},
+    pyramid::Pyramid,
+};
 use super::{
     LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, picture::unfit, scaled, sky_power,
     uniform_direction,
@@ -30,6 +39,10 @@ pub struct Infinite {
     /// Radiance, or factor on the picture.
     radiance: Color,
     picture: Option<Box<Picture>>,
+    /// In world space.
+    portal: Option<Portal>,
+    /// What is seen through the portal, once it is placed.
+    view: Option<Box<View>>,
 }
 
 #[derive(Debug)]
@@ -87,13 +100,17 @@ impl Kind for Infinite {
                 "portal",
                 ParamType::Point3s,
                 ParamDefault::Unset,
-                "Where the light comes in, a help for path tracing: not used yet.",
-            ),
+                "Four corners, in world space, of a rectangular opening through which paths look for the light, a help where \
+                 no light comes in elsewhere; outward is (fourth - first) x (second - first).",
+            )
+            .unit("m"),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let portal = portal(args);
+        let even = |radiance| Self { radiance, picture: None, portal, view: None };
         if !args.is_set("filename") {
-            return Some(Box::new(Self { radiance: scaled(args, "L", "illuminance", PI), picture: None }));
+            return Some(Box::new(even(scaled(args, "L", "illuminance", PI))));
         }
         if args.is_set("L") {
             args.error("L", "a sky has a radiance \"L\" or a picture \"filename\", not both");
@@ -104,7 +121,7 @@ impl Kind for Infinite {
         }
         let Some(image) = image else {
             // The placeholder of a missing picture.
-            return Some(Box::new(Self { radiance: Color::new(1.0, 0.0, 1.0), picture: None }));
+            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0))));
         };
         if let Some(reason) = unfit(&image) {
             args.error("filename", format!("{}: {reason}", args.text("filename")));
@@ -135,7 +152,21 @@ impl Kind for Infinite {
         let density = Density::of(&panorama);
         let render_from_light = Transform::IDENTITY;
         let picture = Box::new(Picture { panorama, blur, density, render_from_light, shrinking: 1.0 });
-        Some(Box::new(Self { radiance: Color::gray(scale), picture: Some(picture) }))
+        Some(Box::new(Self { picture: Some(picture), ..even(Color::gray(scale)) }))
+    }
+}
+
+/// The parameter `portal`; complains if it is none.
+fn portal(args: &mut Args<'_>) -> Option<Portal> {
+    let corners = args.triples("portal");
+    match Portal::new(&corners).map_err(|reason| args.is_set("portal").then_some(reason)) {
+        Ok(portal) => Some(portal),
+        Err(reason) => {
+            if let Some(reason) = reason {
+                args.error("portal", reason);
+            }
+            None
+        }
     }
 }
 
@@ -161,11 +192,20 @@ impl Light for Infinite {
             picture.shrinking = (1.0 / placement.matrix3.determinant().abs()) as f32;
         }
     }
-    fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
+    fn place_portal(&mut self, render_from_world: &DAffine3) {
+        let view = self.portal.filter(|_| self.is_sampled()).map(|portal| {
+            let sky = |d| Color { rgb: Basis::Rgb.to_rgb(self.escaped(Basis::Rgb, d)) }.luminance();
+            Box::new(View::new(portal.placed(render_from_world), sky))
+        });
+        self.view = view;
+    }
+    fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let u = sampler.d2(Dim::Light);
-        let (wi, pdf) = match &self.picture {
-            None => uniform_direction(u),
-            Some(picture) => {
+        let through = self.view.as_ref().and_then(|view| view.draw(p, [u.x, u.y]));
+        let (wi, pdf) = match (through, &self.picture) {
+            (Some(drawn), _) => drawn,
+            (None, None) => uniform_direction(u),
+            (None, Some(picture)) => {
                 let (d, pdf) = picture.density.as_ref()?.draw([u.x, u.y]);
                 let wi = picture.render_from_light.vector(d).normalize();
                 (wi, picture.spread(pdf, picture.render_from_light.inverse().vector(wi)))
@@ -190,7 +230,10 @@ impl Light for Infinite {
         let shines = |picture: &Picture| picture.density.is_some();
         self.radiance.luminance() > 0.0 && self.picture.as_deref().is_none_or(shines)
     }
-    fn pdf_escaped(&self, _cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
+    fn pdf_escaped(&self, _cx: &LightCx, from: Point3, d: Vector3) -> f32 {
+        if let Some(pdf) = self.view.as_ref().and_then(|view| view.at(from, d)) {
+            return pdf;
+        }
         let Some(picture) = &self.picture else { return UNIFORM };
         let towards = picture.render_from_light.inverse().vector(d);
         let density = picture.density.as_ref().map_or(0.0, |density| density.at(towards.normalize()));
