@@ -9,7 +9,7 @@ use durer_core::{
 };
 use durer_model::{
     light::{AREA_LIGHTS, Area, Light, LightCx, Orientation, Track},
-    shape::{Disk, Geometry, Patch, Shape, Sphere, mesh_surface},
+    shape::{Disk, Geometry, Patch, Sphere, mesh_surface},
 };
 use durer_scene::{
     Args, AssetError, Assets, Data, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, ValueType,
