@@ -6,7 +6,9 @@ pub mod program;
 
 use std::path::{Path, PathBuf};
 
-use durer::{Imported, Options, Prepared, Rendered, import::pbrt, prepare};
+use durer::{
+    Distribution, Imported, Options, Prepared, Rendered, Show, import::pbrt, integrator::Sampling, prepare,
+};
 
 /// A scene in our text language, imported.
 pub fn import(text: &str) -> Imported {
@@ -49,4 +51,54 @@ pub fn shared(test: &str) -> Option<PathBuf> {
     }
     eprintln!("SKIPPED: {test}: no folder {}; set DURER_SHARED", folder.display());
     None
+}
+
+/// Files of others under the folder `assets` of [`shared`] with few triangles: textures, instances, motion, holes, glass,
+/// clear coats, lights of every kind.
+pub const FILES: &[&str] = &[
+    "gltf/BoxInterleaved.glb",
+    "gltf/SimpleInstancing.glb",
+    "gltf/TextureCoordinateTest.glb",
+    "gltf/EmissiveStrengthTest.glb",
+    "gltf/AttenuationTest.glb",
+    "gltf/TransmissionTest.glb",
+    "gltf/TransmissionRoughnessTest.glb",
+    "gltf/NegativeScaleTest.glb",
+    "gltf/NormalTangentMirrorTest.glb",
+    "gltf/ClearCoatTest.glb",
+    "gltf/dispersion-test.glb",
+    "gltf/AlphaBlendModeTest.glb",
+    "pbrt/cornell-box-variants/smallpt.pbrt",
+    "pbrt/cornell-box-variants/cornell-box-specular.pbrt",
+    "pbrt/veach-mis/scene-v4.pbrt",
+    "obj/suzanne.obj",
+    "stl/teapot.stl",
+    "gltf/TextureSettingsTest.glb",
+    "gltf/VertexColorTest.glb",
+    "gltf/OrientationTest.glb",
+];
+
+/// Whitted's integrator, Cook's in both ways to combine samples, and ray casting, for small pictures.
+pub fn settings() -> [Options; 4] {
+    let of = |integrator: &str, distribution: Distribution| Options {
+        integrator: Some(integrator.to_owned()),
+        width: Some(64),
+        samples: Some(4),
+        max_depth: Some(6),
+        distribution,
+        ..Options::default()
+    };
+    let distributed = |sampling, rays| Distribution {
+        shadow_rays: Some(rays),
+        gloss_rays: Some(rays),
+        sampling: Some(sampling),
+        ..Distribution::default()
+    };
+    let none = Distribution::default();
+    [
+        of("whitted", none),
+        of("distributed", distributed(Sampling::Shared, 4)),
+        Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
+        Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
+    ]
 }

@@ -1,51 +1,6 @@
 //! No false alarm: whatever is traced without a bug breaks no law.
-use durer::{Distribution, Options, Prepared, Show, builtin, explain::check, integrator::Sampling};
-use durer_tests::{prepared, shared};
-
-/// Files of others: textures, instances, motion, holes, glass, clear coats, lights of every kind.
-const FILES: &[&str] = &[
-    "gltf/BoxInterleaved.glb",
-    "gltf/SimpleInstancing.glb",
-    "gltf/TextureCoordinateTest.glb",
-    "gltf/EmissiveStrengthTest.glb",
-    "gltf/AttenuationTest.glb",
-    "gltf/TransmissionTest.glb",
-    "gltf/TransmissionRoughnessTest.glb",
-    "gltf/NegativeScaleTest.glb",
-    "gltf/NormalTangentMirrorTest.glb",
-    "gltf/ClearCoatTest.glb",
-    "gltf/dispersion-test.glb",
-    "gltf/AlphaBlendModeTest.glb",
-    "pbrt/cornell-box-variants/smallpt.pbrt",
-    "pbrt/cornell-box-variants/cornell-box-specular.pbrt",
-    "pbrt/veach-mis/scene-v4.pbrt",
-    "obj/suzanne.obj",
-    "stl/teapot.stl",
-];
-
-fn settings() -> [Options; 4] {
-    let of = |integrator: &str, distribution: Distribution| Options {
-        integrator: Some(integrator.to_owned()),
-        width: Some(64),
-        samples: Some(4),
-        max_depth: Some(6),
-        distribution,
-        ..Options::default()
-    };
-    let distributed = |sampling, rays| Distribution {
-        shadow_rays: Some(rays),
-        gloss_rays: Some(rays),
-        sampling: Some(sampling),
-        ..Distribution::default()
-    };
-    let none = Distribution::default();
-    [
-        of("whitted", none),
-        of("distributed", distributed(Sampling::Shared, 4)),
-        Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
-        Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
-    ]
-}
+use durer::{Prepared, builtin, explain::check};
+use durer_tests::{FILES, prepared, settings, shared};
 
 /// Checks so many pixels of a scene, spread over the picture; how many that were.
 fn check_pixels(name: &str, prepared: &Prepared, pixels: u32) -> u32 {

@@ -1,55 +1,11 @@
 //! Ray trees are the pixel (D1): folded from the leaves they give its sample bit for bit, their contributions sum to it,
 //! and every part of them can be traced again from what its first ray holds.
 use durer::{
-    Distribution, Options, Prepared, Show, builtin,
-    integrator::Sampling,
+    Options, Prepared, builtin,
     probe::{RayTree, StopReason},
     spectrum::Basis,
 };
-use durer_tests::{prepared, shared};
-
-/// Files of others beside the built-in scenes: few triangles, but textures, instances, motion, holes, glass, lights of
-/// every kind.
-const FILES: &[&str] = &[
-    "gltf/BoxInterleaved.glb",
-    "gltf/SimpleInstancing.glb",
-    "gltf/TextureCoordinateTest.glb",
-    "gltf/TextureSettingsTest.glb",
-    "gltf/VertexColorTest.glb",
-    "gltf/EmissiveStrengthTest.glb",
-    "gltf/AttenuationTest.glb",
-    "gltf/OrientationTest.glb",
-    "pbrt/cornell-box-variants/smallpt.pbrt",
-    "pbrt/cornell-box-variants/cornell-box-specular.pbrt",
-    "pbrt/veach-mis/scene-v4.pbrt",
-    "obj/suzanne.obj",
-    "stl/teapot.stl",
-];
-
-/// Whitted's integrator, Cook's in both ways to combine samples, and ray casting.
-fn settings() -> [Options; 4] {
-    let of = |integrator: &str, distribution: Distribution| Options {
-        integrator: Some(integrator.to_owned()),
-        width: Some(64),
-        samples: Some(4),
-        max_depth: Some(6),
-        distribution,
-        ..Options::default()
-    };
-    let distributed = |sampling, rays| Distribution {
-        shadow_rays: Some(rays),
-        gloss_rays: Some(rays),
-        sampling: Some(sampling),
-        ..Distribution::default()
-    };
-    let none = Distribution::default();
-    [
-        of("whitted", none),
-        of("distributed", distributed(Sampling::Shared, 4)),
-        Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
-        Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
-    ]
-}
+use durer_tests::{FILES, prepared, settings, shared};
 
 /// A row of numbers as good as random.
 struct Row(u64);

@@ -8,7 +8,7 @@ use std::{
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Gather, Options, Prepared,
-    draw::{Drawing, Kind, Line, Machine, Paper, Style, Tones, draw, hatch, svg},
+    draw::{Drawing, FINEST_HATCH, Kind, Line, Machine, Paper, Style, Tones, draw, hatch, svg},
 };
 
 use crate::{
@@ -34,7 +34,11 @@ Examples:
 Rays are compared with their neighbours, as Dürer's thread was moved from point to
 point: a line passes where a surface ends (silhouette), two things meet (boundary) or
 a surface folds (crease). What no ray sees is not drawn. Crossings are found to a
-64th of a pixel; more rays find smaller things and move no line.
+64th of a pixel; more rays find smaller things and move no line. A picture that is
+small gets more of them, up to 8 along the edge of a pixel.
+
+Options on samples, light transport and distribution count for --hatch only: lines
+are found without light. --crop draws that part of the picture.
 
 SVG: a group per kind of line (ids silhouette, boundary, crease, hatch), a path per line, in
 pixels. stdout holds the path of the file.";
@@ -52,10 +56,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_negative_numbers = true)]
     #[arg(default_value_t = 40.0, help_heading = "Drawing")]
     crease: f32,
-    /// Rays along the edge of a pixel.
+    /// Rays along the edge of a pixel [default: 1, more where the picture is small].
     #[arg(long, value_name = "N", value_parser = whole(1u32..=16), allow_negative_numbers = true)]
-    #[arg(default_value_t = 1, help_heading = "Drawing")]
-    rays: u32,
+    #[arg(help_heading = "Drawing")]
+    rays: Option<u32>,
     /// How far curves may pass by the points that were found.
     #[arg(long, value_name = "PIXELS", value_parser = positive, allow_negative_numbers = true)]
     #[arg(default_value_t = 0.04, help_heading = "Drawing")]
@@ -64,8 +68,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PIXELS", value_parser = positive, allow_negative_numbers = true)]
     #[arg(help_heading = "Drawing")]
     stroke: Option<f32>,
-    /// Hatches what is dark in the rendered picture, with strokes so far apart [default without PIXELS: 5].
-    #[arg(long, value_name = "PIXELS", value_parser = positive, num_args = 0..=1, require_equals = true)]
+    /// Hatches what is dark in the rendered picture, with strokes so far apart, 1 at least [default without PIXELS: 5].
+    #[arg(long, value_name = "PIXELS", value_parser = spacing, num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "5", help_heading = "Drawing")]
     hatch: Option<f32>,
     /// What lies under the lines.
@@ -85,6 +89,15 @@ fn angle(text: &str) -> Result<f32, String> {
     inside.ok_or_else(|| "expected an angle above 0 and below 180 degrees".to_owned())
 }
 
+/// A distance between strokes.
+fn spacing(text: &str) -> Result<f32, String> {
+    let pixels = positive(text)?;
+    match f64::from(pixels) < FINEST_HATCH {
+        true => Err(format!("strokes are at least {FINEST_HATCH} pixel apart")),
+        false => Ok(pixels),
+    }
+}
+
 fn paper() -> impl TypedValueParser<Value = Paper> {
     PossibleValuesParser::new(Paper::ALL.map(Paper::word))
         .try_map(|word| Paper::ALL.into_iter().find(|p| p.word() == word).ok_or("unknown"))
@@ -99,14 +112,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let Some(prepared) = &loaded.prepared else {
         return Ok(loaded.failure);
     };
+    let window = prepared.window();
+    if window.area() == 0 {
+        return Err(WrongUsage("--crop lies outside the picture: there is nothing to draw".to_owned()).into());
+    }
+    let view = &prepared.scene.view;
     let machine = Machine {
-        rays: args.rays,
+        rays: args.rays.unwrap_or_else(|| Machine::rays_for([view.width, view.height])),
         crease: args.crease.into(),
         tolerance: args.tolerance.into(),
         threads: prepared.settings.threads,
+        window: Some(window),
     };
     let start = Instant::now();
-    let view = &prepared.scene.view;
     let bar = Bar::new(machine.steps([view.width, view.height]), args.talk.quiet);
     // Half a drawing is none: Ctrl-C ends the program.
     let drawing = draw(&prepared.scene, &machine, &bar, &AtomicBool::new(false))?;
@@ -115,7 +133,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     if let Some(spacing) = args.hatch {
         drawing.lines.extend(args.hatching(prepared, &machine, spacing));
     }
-    let shorter = f64::from(drawing.size[0].min(drawing.size[1]));
+    // As wide in a part of the picture as in the whole.
+    let shorter = f64::from(view.width.min(view.height));
     let stroke = args.stroke.map_or((shorter / 500.0).max(0.5), f64::from);
     let title =
         Path::new(scene).file_stem().map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
@@ -135,9 +154,12 @@ impl Args {
         let bar = Bar::new(prepared.job().steps(), self.talk.quiet);
         let rendered = prepared.job().render(Gather::Rays, &bar, &never);
         bar.finish();
-        let view = &prepared.scene.view;
-        let pixels: Vec<[f32; 3]> = rendered.film.pixels().iter().map(|p| p.mean()).collect();
-        let tones = Tones::new([view.width, view.height], &pixels);
+        let (window, all) = (prepared.window(), rendered.film.pixels());
+        let rows = (window.y0..window.y1).map(|y| (y * prepared.scene.view.width) as usize);
+        let of_row = |start: usize| all[start + window.x0 as usize..start + window.x1 as usize].iter();
+        let pixels: Vec<[f32; 3]> = rows.flat_map(of_row).map(|p| p.mean()).collect();
+        let tones = Tones::new([window.x1 - window.x0, window.y1 - window.y0], &pixels);
+        let tones = tones.map(|tones| tones.with_corner([window.x0, window.y0]));
         let lines = tones.and_then(|tones| hatch(&prepared.scene, machine, &tones, spacing.into(), &never));
         lines.unwrap_or_default()
     }
@@ -174,7 +196,7 @@ fn summary(drawing: &Drawing, seconds: f32) -> String {
         (kind != Kind::Hatch || n > 0).then(|| counted(n as u64, one, many))
     });
     let kinds: Vec<String> = kinds.collect();
-    let [w, h] = drawing.size;
+    let (w, h) = (drawing.part.x1 - drawing.part.x0, drawing.part.y1 - drawing.part.y0);
     let rays = significant(drawing.rays as f32 / 1e6, 3);
     let seconds = significant(seconds, 3);
     format!("{w} x {h} pixels: {} from {rays} million rays in {seconds} s", kinds.join(", "))

@@ -1,13 +1,16 @@
 //! `durer explain`: why a pixel has its colour.
 
-use durer::{explain::explain, tree::Subject};
+use durer::{
+    explain::{explain, explain_one},
+    tree::Subject,
+};
 
 use crate::{
     exit::{Exit, emit, emit_json, harmless},
     load::load,
     options::{SampleOptions, TalkOptions},
     report,
-    trace::{check_pixel, check_sample},
+    trace::{check_many, check_pixel, check_sample},
     value::{pixel, whole},
 };
 
@@ -70,11 +73,17 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     };
     check_pixel(prepared, args.pixel)?;
     let subject = Subject { name, prepared };
-    let taken = subject.samples(args.pixel);
-    if let Some(sample) = args.sample {
-        check_sample(prepared, &taken, sample)?;
-    }
-    let explanation = explain(&subject, args.pixel, &taken, args.sample);
+    let count = prepared.job().sample_count(args.pixel);
+    let explanation = match args.sample {
+        Some(sample) => {
+            check_sample(prepared, count, sample)?;
+            explain_one(&subject, args.pixel, sample)
+        }
+        None => {
+            check_many("the mean is made of", count)?;
+            explain(&subject, args.pixel, &subject.samples(args.pixel), None)
+        }
+    };
     if args.json {
         emit_json(&explanation)?;
     } else {

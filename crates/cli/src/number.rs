@@ -31,11 +31,6 @@ pub(crate) fn pixel_line(rgb: [f32; 3]) -> String {
     format!("pixel {}", rgb.map(|v| significant(v, 9)).join(" "))
 }
 
-/// Three numbers to read, not to compute with.
-pub(crate) fn triple(v: [f32; 3]) -> String {
-    v.map(|v| significant(v, 4)).join(" ")
-}
-
 /// `12.3 M`; small counts exactly.
 pub(crate) fn count(n: u64) -> String {
     match n {

@@ -7,12 +7,14 @@ mod output;
 mod text;
 mod which;
 
-use std::path::PathBuf;
+use std::{
+    path::PathBuf,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Prepared,
-    drive::{Antialias, Taken},
     probe::{Clock, Detail},
     tree::{Find, Page, Subject, Surroundings},
 };
@@ -28,6 +30,7 @@ use crate::{
 use help::EXAMPLES;
 use output::Output;
 use which::Which;
+pub(crate) use which::{check_many, check_sample};
 
 /// Nodes of all trees of a page together: other samples than those asked for are left out beyond.
 const PAGE_NODES: usize = 10_000;
@@ -102,6 +105,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let Some(chosen) = args.choose(prepared, &interrupt)? else {
         return Ok(Exit::Failed);
     };
+    if outputs.iter().any(|o| o.format.is_page()) || other.is_some() {
+        check_many("a page holds", prepared.job().sample_count(chosen.pixel))?;
+    }
     let subject = Subject { name: scene, prepared };
     let mut page = subject.page(chosen.pixel, &chosen.samples, args.around(&outputs), args.detail(&outputs));
     if let Some(other) = other {
@@ -111,6 +117,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
             return Ok(loaded.failure);
         };
         let twin = Subject { name: &other.scene.scene, prepared };
+        if page.values.is_empty() {
+            subject.add_samples(&mut page, chosen.pixel);
+        }
         compare::add(
             (&mut page, chosen.samples.len()),
             &subject,
@@ -166,7 +175,6 @@ impl Args {
 
     /// The pixel and the samples; `None`, with a word about it, if there is no such thing.
     fn choose(&self, prepared: &Prepared, interrupt: &Interrupt) -> anyhow::Result<Option<Chosen>> {
-        let subject = Subject { name: &self.sample_options.scene.scene, prepared };
         let (pixel, found, interrupted) = match (self.pixel, self.find) {
             (Some(pixel), _) => (pixel, 0, false),
             (None, Some(find)) => match find::search(self, find, prepared, interrupt)? {
@@ -176,14 +184,16 @@ impl Args {
             (None, None) => return Err(WrongUsage("--pixel or --find says which pixel".to_owned()).into()),
         };
         check_pixel(prepared, pixel)?;
-        let samples = subject.samples(pixel);
         let which = self.sample.unwrap_or(Which::Index(found));
-        if let Which::Index(sample) = which {
-            check_sample(prepared, &samples, sample)?;
-        }
-        let Some(samples) = which.of(&samples) else {
+        // Samples that are looked through are left at Ctrl-C; everything else ends with it.
+        let never = AtomicBool::new(false);
+        let searches = matches!(which, Which::Brightest | Which::Nan);
+        let cancel = if searches { interrupt.rendering() } else { &never };
+        let samples = which.of(prepared, pixel, cancel)?;
+        let interrupted = interrupted || cancel.load(Ordering::Relaxed);
+        let Some(samples) = samples else {
             let [x, y] = pixel;
-            let count = samples.len();
+            let count = prepared.job().sample_count(pixel);
             tell(&format!("error: none of the {count} samples of pixel {x},{y} is infinite or NaN"));
             return Ok(None);
         };
@@ -203,22 +213,6 @@ pub(crate) fn check_pixel(prepared: &Prepared, [x, y]: [u32; 2]) -> Result<(), W
         "pixel {x},{y} lies outside the picture of {size} pixels: the last one is {right},{bottom}\n  \
          help: give the --width and --height of the render that you mean"
     )))
-}
-
-/// Complains about a sample that the pixel does not have.
-pub(crate) fn check_sample(prepared: &Prepared, samples: &[Taken], sample: u32) -> Result<(), WrongUsage> {
-    let count = samples.len();
-    if (sample as usize) < count {
-        return Ok(());
-    }
-    Err(WrongUsage(match prepared.settings.antialias {
-        Antialias::Supersample => {
-            format!("there is no sample {sample}: a pixel has {count} (--spp), counted from 0")
-        }
-        Antialias::Adaptive(_) => {
-            format!("there is no sample {sample}: this pixel has {count}, counted from 0")
-        }
-    }))
 }
 
 /// The value that stands in the last line: the sample's, or the pixel's if all its samples are shown.

@@ -5,7 +5,7 @@
 //! its seed both ways until it comes near another, leaves the surface or the shade.
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use durer_core::{glam::DVec2, math::Vector3};
+use durer_core::{glam::DVec2, math::Vector3, spectrum::Color};
 use durer_render::Scene;
 
 use crate::{
@@ -15,6 +15,8 @@ use crate::{
     line::{Pen, radians},
 };
 
+/// Strokes are no nearer to each other, in pixels.
+pub const FINEST_HATCH: f64 = 1.0;
 /// Way between two rays of a stroke, in pixels.
 const STEP: f64 = 1.5;
 /// Strokes end before they come nearer to others than this share of their distance.
@@ -31,6 +33,8 @@ const LAYERS: [(f32, [f32; 3]); 3] =
 /// How bright each pixel of a picture is to the eye, stretched from its darkest part, 0, to its brightest, 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tones {
+    /// The upper left pixel.
+    corner: [u32; 2],
     size: [u32; 2],
     values: Vec<f32>,
 }
@@ -42,7 +46,7 @@ impl Tones {
         if pixels.is_empty() || pixels.len() != width * height {
             return None;
         }
-        let light = |p: &[f32; 3]| (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).clamp(0.0, 1.0).sqrt();
+        let light = |p: &[f32; 3]| Color { rgb: *p }.luminance().clamp(0.0, 1.0).sqrt();
         let sharp: Vec<f32> = pixels.iter().map(light).map(|v| if v.is_finite() { v } else { 0.0 }).collect();
         // The noise of few samples would cut strokes to pieces.
         let mean = |i: usize| {
@@ -59,10 +63,22 @@ impl Tones {
         let [low, high] = [0.03, 0.97].map(|share| sorted[(share * (sorted.len() - 1) as f64) as usize]);
         let range = (high - low).max(f32::MIN_POSITIVE);
         values.iter_mut().for_each(|v| *v = ((*v - low) / range).clamp(0.0, 1.0));
-        Some(Self { size, values })
+        Some(Self { corner: [0, 0], size, values })
+    }
+
+    /// The same of a part of a picture, whose upper left pixel is `corner`.
+    #[must_use]
+    pub fn with_corner(self, corner: [u32; 2]) -> Self {
+        Self { corner, ..self }
+    }
+
+    /// A point of the picture from the corner of the part.
+    fn inside(&self, at: DVec2) -> DVec2 {
+        at - DVec2::new(self.corner[0].into(), self.corner[1].into())
     }
 
     fn at(&self, at: DVec2) -> f32 {
+        let at = self.inside(at);
         let clamped = |v: f64, n: u32| (v.max(0.0) as usize).min(n as usize - 1);
         self.values[clamped(at.y, self.size[1]) * self.size[0] as usize + clamped(at.x, self.size[0])]
     }
@@ -85,6 +101,7 @@ struct Layer<'a> {
 impl Layer<'_> {
     fn square(&self, at: DVec2) -> (usize, usize) {
         // One square more on each side than the picture has.
+        let at = self.tones.inside(at);
         let index = |v: f64| (v / self.spacing + 1.0).max(0.0) as usize;
         (index(at.x).min(self.columns - 1), index(at.y))
     }
@@ -111,7 +128,8 @@ impl Layer<'_> {
 
     fn is_dark(&self, at: DVec2) -> bool {
         let [w, h] = self.tones.size.map(f64::from);
-        (0.0..w).contains(&at.x) && (0.0..h).contains(&at.y) && self.tones.at(at) < self.darkness
+        let inside = self.tones.inside(at);
+        (0.0..w).contains(&inside.x) && (0.0..h).contains(&inside.y) && self.tones.at(at) < self.darkness
     }
 
     /// Where a stroke goes on from a spot, in the picture, of unit length; `None` where the planes touch the surface.
@@ -167,7 +185,7 @@ impl Layer<'_> {
     }
 }
 
-/// Strokes `spacing` pixels apart, above 1, where a scene's picture is dark; `None` if `cancel` was set meanwhile.
+/// Strokes `spacing` pixels apart, [`FINEST_HATCH`] at least, where a scene's picture is dark; `None` if `cancel` was set meanwhile.
 pub fn hatch(
     scene: &Scene,
     machine: &Machine,
@@ -176,7 +194,7 @@ pub fn hatch(
     cancel: &AtomicBool,
 ) -> Option<Vec<Line>> {
     let eye = Eye::new(scene);
-    let spacing = spacing.max(1.0);
+    let spacing = spacing.max(FINEST_HATCH);
     let crease = radians(machine.crease) as f32;
     let pen = Pen { tolerance: 2.0 * machine.tolerance, crease };
     let [columns, rows] = tones.size.map(|n| (f64::from(n) / spacing).ceil() as usize + 2);
@@ -200,7 +218,8 @@ pub fn hatch(
             for column in 0..columns {
                 // Seeds on the corners of a lattice of their own would show it.
                 let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
-                let seed = DVec2::new(column as f64 + shift, row as f64 + 0.5) * spacing;
+                let corner = DVec2::new(tones.corner[0].into(), tones.corner[1].into());
+                let seed = corner + DVec2::new(column as f64 + shift, row as f64 + 0.5) * spacing;
                 lines.extend(layer.stroke(seed).and_then(|points| pen.stroke(Kind::Hatch, &points)));
             }
         }

@@ -2,7 +2,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use durer_core::glam::DVec2;
-use durer_render::drive::Progress;
+use durer_render::{drive::Progress, film::Tile};
 use rayon::prelude::*;
 
 use crate::{
@@ -49,20 +49,23 @@ pub(crate) struct Grid {
     pub(crate) span: u32,
     /// Cells per row, rows.
     pub(crate) cells: [u32; 2],
+    /// Units from the corner of the whole picture to that of the part.
+    corner: DVec2,
 }
 
 impl Grid {
-    /// With `rays` along the edge of a pixel.
-    pub(crate) fn new([width, height]: [u32; 2], rays: u32) -> Self {
+    /// Over a part of the picture, with `rays` along the edge of a pixel.
+    pub(crate) fn new(part: Tile, rays: u32) -> Self {
         let spacing = 1.0 / f64::from(rays);
         let span = ((spacing / FINEST).ceil() as u32).next_power_of_two();
         // One pixel more than the picture has, all told.
-        let cells = [width, height].map(|n| (n + 1) * rays);
-        Self { unit: spacing / f64::from(span), span, cells }
+        let cells = [part.x1 - part.x0, part.y1 - part.y0].map(|n| (n + 1) * rays);
+        let corner = DVec2::new(part.x0.into(), part.y0.into()) * f64::from(rays * span);
+        Self { unit: spacing / f64::from(span), span, cells, corner }
     }
     /// The place of a point of the grid, in pixels.
     pub(crate) fn place(&self, [x, y]: [u32; 2]) -> DVec2 {
-        DVec2::splat(ORIGIN) + DVec2::new(x.into(), y.into()) * self.unit
+        DVec2::splat(ORIGIN) + (self.corner + DVec2::new(x.into(), y.into())) * self.unit
     }
 }
 

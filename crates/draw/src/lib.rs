@@ -25,11 +25,11 @@ mod trail;
 
 use std::sync::atomic::AtomicBool;
 
-use durer_render::{Scene, drive::Progress};
+use durer_render::{Scene, drive::Progress, film::Tile};
 
 pub use bezier::Piece;
 pub use durer_core::glam::DVec2;
-pub use hatch::{Tones, hatch};
+pub use hatch::{FINEST_HATCH, Tones, hatch};
 pub use line::Line;
 pub use svg::{Paper, Style, svg};
 
@@ -79,33 +79,55 @@ pub struct Machine {
     pub tolerance: f64,
     /// Worker threads, at least 1. The drawing does not depend on their number.
     pub threads: usize,
+    /// The part of the picture that is drawn; all of it if there is none. Lines are where they are in the whole.
+    pub window: Option<Tile>,
 }
 
 impl Default for Machine {
     fn default() -> Self {
-        Self { rays: 1, crease: 40.0, tolerance: 0.04, threads: 1 }
+        Self { rays: 1, crease: 40.0, tolerance: 0.04, threads: 1, window: None }
     }
 }
 
 impl Machine {
     /// How many steps [`draw`] tells of, for a picture of this size.
     pub fn steps(&self, size: [u32; 2]) -> u64 {
-        let [columns, rows] = Grid::new(size, self.rays.max(1)).cells.map(u64::from);
+        let [columns, rows] = Grid::new(self.part(size), self.rays.max(1)).cells.map(u64::from);
         2 * (columns + 1) * (rows + 1)
+    }
+
+    /// Rays along the edge of a pixel that a picture of this size needs: small ones hold more in a pixel.
+    pub fn rays_for(size: [u32; 2]) -> u32 {
+        ROW.div_ceil(size[0].max(size[1]).max(1)).clamp(1, MOST_RAYS)
+    }
+
+    /// What is drawn of a picture of this size.
+    fn part(&self, [width, height]: [u32; 2]) -> Tile {
+        let all = Tile { x0: 0, y0: 0, x1: width, y1: height };
+        self.window.map_or(all, |part| Tile {
+            x0: part.x0.min(width),
+            y0: part.y0.min(height),
+            x1: part.x1.clamp(part.x0.min(width), width),
+            y1: part.y1.clamp(part.y0.min(height), height),
+        })
     }
 }
 
 /// Lines on a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    /// Pixels per row, and rows. Lines may reach a little beyond.
-    pub size: [u32; 2],
+    /// The part of the picture that is drawn, in pixels. Lines may reach a little beyond.
+    pub part: Tile,
     /// The lines.
     pub lines: Vec<Line>,
     /// How many rays were cast.
     pub rays: u64,
 }
 
+/// Rays along the longer edge of a picture at least, as far as [`MOST_RAYS`] allows.
+const ROW: u32 = 1280;
+/// Rays along the edge of a pixel, if nobody asks for more.
+const MOST_RAYS: u32 = 8;
 /// A fold is followed while it is at least this share as sharp as it must be to be drawn.
 const FADING: f32 = 0.75;
 
@@ -129,16 +151,16 @@ fn draw_here(
     progress: &dyn Progress,
     cancel: &AtomicBool,
 ) -> Option<Drawing> {
-    let size = [scene.view.width, scene.view.height];
+    let part = machine.part([scene.view.width, scene.view.height]);
     let eye = Eye::new(scene);
     let crease = line::radians(machine.crease) as f32;
     let searcher = Searcher { eye: &eye, judge: Judge { crease: FADING * crease } };
-    let grid = Grid::new(size, machine.rays.max(1));
+    let grid = Grid::new(part, machine.rays.max(1));
     let lattice = Lattice::cast(&eye, grid, progress, cancel)?;
     let crossed = lattice.crossed(&searcher, progress, cancel)?;
     let net = Net::follow(&searcher, &lattice, crossed, cancel)?;
     let pen = line::Pen { tolerance: machine.tolerance, crease };
     let trails = trail::trails(&Strands::of(&net));
     let lines = trails.iter().filter_map(|trail| pen.line(trail)).collect();
-    Some(Drawing { size, lines, rays: eye.rays() })
+    Some(Drawing { part, lines, rays: eye.rays() })
 }

@@ -2,6 +2,7 @@
 use std::fmt::Write;
 
 use durer_core::glam::DVec2;
+use durer_render::film::Tile;
 
 use crate::{Drawing, Kind, Line, Piece};
 
@@ -101,14 +102,16 @@ fn path(line: &Line) -> String {
 
 /// The text of an SVG file with a drawing called `title`.
 pub fn svg(drawing: &Drawing, title: &str, style: &Style) -> String {
-    let [w, h] = drawing.size;
+    let Tile { x0, y0, x1, y1 } = drawing.part;
+    let (w, h) = (x1 - x0, y1 - y0);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"{x0} {y0} {w} {h}\">\n\
          <title>{title}</title>\n"
     );
+    let corner = if [x0, y0] == [0, 0] { String::new() } else { format!(" x=\"{x0}\" y=\"{y0}\"") };
     if let Some(color) = style.paper.color() {
-        let _ = writeln!(text, "<rect id=\"paper\" width=\"{w}\" height=\"{h}\" fill=\"{color}\"/>");
+        let _ = writeln!(text, "<rect id=\"paper\"{corner} width=\"{w}\" height=\"{h}\" fill=\"{color}\"/>");
     }
     text.push_str(
         "<g id=\"drawing\" fill=\"none\" stroke=\"#1d1712\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",

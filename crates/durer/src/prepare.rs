@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
-use durer_model::filter::Filter;
+use durer_model::{filter::Filter, material::GlossRays};
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
@@ -53,6 +53,18 @@ impl Prepared {
     /// What the material of this number is called.
     pub fn material_name(&self, material: u32) -> String {
         self.material_names.get(material as usize).cloned().unwrap_or_else(|| "default".to_owned())
+    }
+    /// The largest radiance that any ray of the scene can bring, over all channels, in the mean over random choices. Looked
+    /// for when it is asked for first.
+    ///
+    /// # Errors
+    /// Why there is no bound, as a clause.
+    pub fn brightest(&self) -> Result<f32, &str> {
+        let gloss = match self.rules.contains_key("gloss_rays") {
+            true => GlossRays::Drawn,
+            false => GlossRays::Main,
+        };
+        self.scene.brightest(gloss)
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {

@@ -47,6 +47,20 @@ impl ShadeCx<'_> {
             }
         }
     }
+    /// No component of `input` is of larger magnitude anywhere.
+    pub fn largest_color(&self, input: ColorInput) -> f32 {
+        match input {
+            ColorInput::Constant(color) => color.rgb.into_iter().fold(0.0, |most: f32, v| most.max(v.abs())),
+            ColorInput::Texture(index) => self.textures[index as usize].largest(self),
+        }
+    }
+    /// The magnitude of `input` is larger nowhere.
+    pub fn largest_float(&self, input: FloatInput) -> f32 {
+        match input {
+            FloatInput::Constant(value) => value.abs(),
+            FloatInput::Texture(index) => self.textures[index as usize].largest(self),
+        }
+    }
     /// The number of `input` at a point.
     #[inline]
     pub fn float(&self, input: FloatInput, at: &TextureAt) -> f32 {

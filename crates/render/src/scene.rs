@@ -1,5 +1,5 @@
 //! The compiled scene: frozen, without lifetimes, ready to be asked for hits by any number of threads.
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
@@ -97,8 +97,12 @@ pub struct Scene {
     pub(crate) movers: Vec<PlacedShape>,
     /// What fills transparent bodies.
     pub media: Media,
+    /// Whether light goes straight on through anything. PERF: asked by every shadow ray of a path.
+    pub(crate) is_passed: bool,
     /// The bodies that the camera is in.
     pub start: MediumStack,
+    /// See [`Scene::brightest`]; by how gloss is seen.
+    pub(crate) brightest: [OnceLock<Result<f32, String>>; 2],
 }
 
 /// The scene's own part of a ray's way: shapes that are no meshes, and what is not there for the ray.

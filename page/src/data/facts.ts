@@ -36,11 +36,11 @@ class Group {
 }
 
 export function facts(node: Node): Facts[] {
-  const used = new Set<string>(["light", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle"]);
+  const used = new Set<string>(["light", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle", "left_out", "whole_id"]);
   const group = (): Group => new Group(used, node);
   const all: Facts[] = [
     { title: "Radiance", open: true, facts: radiance(group()) },
-    { title: "Ray", open: true, facts: group().key("id").key("parent").key("kind").key("depth").key("origin", "m").key("direction").key("t", "m").key("time", "s").facts },
+    { title: "Ray", open: true, facts: group().key("id").value("id in the JSON", node.whole_id).key("parent").key("kind").key("depth").key("origin", "m").key("direction").key("t", "m").key("time", "s").facts },
     { title: "Hit", open: true, facts: hit(group(), node) },
     { title: "Light", open: true, facts: light(group(), node) },
     { title: "Bodies and Fresnel", open: true, facts: optics(group(), node) },

@@ -36,7 +36,8 @@ export function grove(tree: Tree): Grove {
     levels[index] = (levels[node.parent] ?? 0) + 1;
   });
   const sizes = nodes.map(() => 1);
-  const shares = nodes.map((node) => luminance(node.contribution));
+  // Rays that the page has no room for count where they are missed.
+  const shares = nodes.map((node) => luminance(node.contribution) + (node.left_out ? luminance(node.left_out.contribution) : 0));
   for (let i = nodes.length - 1; i >= 0; i--) {
     const parent = nodes[i]!.parent;
     if (parent === null) continue;

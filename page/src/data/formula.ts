@@ -35,10 +35,11 @@ export function formulas(g: Grove, node: Node): Formula[] {
 /** L = local + sum of weight x result. */
 function sum(g: Grove, node: Node): Formula | null {
   const below = g.children[node.id] ?? [];
-  if (below.length === 0) return null;
+  const missing = node.left_out;
+  if (below.length === 0 && !missing) return null;
   const most = 24;
   const shown = below.length > most ? below.slice(0, most) : below;
-  const total = below.reduce((s, id) => add(s, times(g.nodes[id]!.weight, g.nodes[id]!.result)), node.local);
+  const total = below.reduce((s, id) => add(s, times(g.nodes[id]!.weight, g.nodes[id]!.result)), missing ? add(node.local, missing.result) : node.local);
   const lines: Term[][] = [
     [sym("L"), say(" = "), sym("local"), say(" + Σ "), sym("weight × L"), say(" of the rays below")],
     [say("= "), rgb(node.local), say("  "), sym("local")],
@@ -48,6 +49,7 @@ function sum(g: Grove, node: Node): Formula | null {
     }),
   ];
   if (shown.length < below.length) lines.push([say(`+ ${below.length - shown.length} more`)]);
+  if (missing) lines.push([say("+ "), rgb(missing.result), say(`  of ${missing.rays} rays left out of this page`)]);
   lines.push([say("= "), rgb(total)]);
   const agrees = nearRgb(total, node.result);
   return { title: "What the ray brings", lines, check: { agrees, text: `recorded ${tuple(node.result)}` } };
@@ -156,7 +158,7 @@ function place(node: Node): Formula | null {
       [say("= "), val(tuple(node.origin)), say(" + "), val(num(node.t)), say(" × "), val(tuple(node.direction))],
       [say("= "), val(tuple(at))],
     ],
-    check: { agrees: off < 1e-3 * (1 + Math.abs(node.t)), text: `recorded ${tuple(node.point)}` },
+    check: { agrees: off <= 1e-3 * (Math.abs(node.t) + Math.max(...node.point.map(Math.abs))), text: `recorded ${tuple(node.point)}` },
   };
 }
 

@@ -90,7 +90,8 @@ export function stack(g: Grove, s: Script, at: number): Frame[] {
 }
 
 function summed(g: Grove, s: Script, id: number, at: number): Rgb {
-  let sum = g.nodes[id]!.local;
+  const { local, left_out } = g.nodes[id]!;
+  let sum = left_out ? add(local, left_out.result) : local;
   for (const child of g.children[id]!) {
     if (s.popped[child]! > at) continue;
     sum = add(sum, times(g.nodes[child]!.weight, g.nodes[child]!.result));

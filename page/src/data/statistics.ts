@@ -20,6 +20,8 @@ export interface Statistics {
   killed: Rgb;
   /** Upper bound on what was cut off, by luminance. */
   bound: number;
+  /** Why there is no such bound: then `bound` is by the brightest light that was seen. */
+  unbounded: string | null;
   boxes: number;
   primitives: number;
 }
@@ -34,7 +36,7 @@ export function statistics(trees: Tree[]): Statistics {
   const s: Statistics = {
     rays: 0, kinds: [], stops: [], depths: [], lights: [], lobes: [], asked: 0, occluded: 0,
     value: trees.reduce((sum, tree) => sum + luminance(tree.rgb), 0) / of,
-    killed: BLACK, bound: 0, boxes: 0, primitives: 0,
+    killed: BLACK, bound: 0, unbounded: null, boxes: 0, primitives: 0,
   };
   for (const tree of trees) {
     for (const node of tree.nodes) {
@@ -54,7 +56,8 @@ export function statistics(trees: Tree[]): Statistics {
       if (asksLight(node)) countLight(s, lights, node, light);
     }
     s.killed = add(s.killed, killedOf(tree).map((x) => x / of) as Rgb);
-    s.bound += (luminance(killedOf(tree)) * maxRadiance(tree)) / of;
+    s.bound += missingOf(tree) / of;
+    s.unbounded ??= tree.no_bound ?? null;
   }
   const byLight = <T extends { light: number; rays: number }>(list: Iterable<T>) =>
     [...list].sort((a, b) => b.light - a.light || b.rays - a.rays);
@@ -89,6 +92,11 @@ function lobeOf(node: Node): string {
 
 export function killedOf(tree: Tree): Rgb {
   return tree.killed ?? tree.nodes.reduce((sum, node) => add(sum, node.lost), BLACK);
+}
+
+/** What is missing of a tree at most, by luminance. */
+function missingOf(tree: Tree): number {
+  return tree.missing ? luminance(tree.missing) : luminance(killedOf(tree)) * maxRadiance(tree);
 }
 
 export function maxRadiance(tree: Tree): number {

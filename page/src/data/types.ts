@@ -59,6 +59,9 @@ export interface Tests {
   points?: number;
 }
 
+/** Rays that there was no room for in the page: how many, what they add to the pixel, what they bring to the ray above. */
+export interface LeftOut { rays: number; contribution: Rgb; result: Rgb }
+
 /** One ray. */
 export interface Node {
   id: number;
@@ -105,6 +108,10 @@ export interface Node {
   limit?: { value: number; threshold: number } | null;
   ns?: number | null;
   walk?: WalkedBox[] | null;
+  /** Its id in the whole tree, where this one was cut. */
+  whole_id?: number | null;
+  /** What is missing below it. */
+  left_out?: LeftOut | null;
 }
 
 /** What another way of tracing changes in a sample, as the program found it. */
@@ -138,7 +145,13 @@ export interface Tree {
   rules?: Record<string, unknown> | null;
   killed?: Rgb | null;
   max_radiance?: number | null;
+  /** How much of `rgb` is missing at most. */
+  missing?: Rgb | null;
+  /** Why that cannot be said. */
+  no_bound?: string | null;
   diff?: Diff | null;
+  /** What is missing of the tree. */
+  left_out?: LeftOut | null;
 }
 
 export interface PackedMesh {
@@ -201,4 +214,6 @@ export interface Page {
   mean: Rgb;
   picture: { png: string; width: number; height: number } | null;
   scene: Scene;
+  /** What else there was no room for, in words. */
+  left_out?: string[] | null;
 }

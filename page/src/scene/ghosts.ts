@@ -1,36 +1,51 @@
-// The scene's objects as ghosts: seen at their edges, looked through elsewhere.
+// The scene's objects as ghosts: seen at their edges, looked through elsewhere. All of them are few draws: one for the
+// faces of most, one for their edges, one for whole spheres; meshes with many copies have one each.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  ShaderMaterial, SphereGeometry, Vector3, Vector4,
+  BufferGeometry, DoubleSide, Group, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments,
+  Matrix4, Mesh, MeshBasicMaterial, ShaderMaterial, SphereGeometry, Vector3, Vector4,
 } from "three";
 
-import { bytesOf } from "../data/load";
 import { encode } from "../data/color";
-import type { PackedMesh, Scene, SceneObject } from "../data/types";
+import type { Scene, SceneObject } from "../data/types";
+import { edgesOf, placements, shape } from "./shape";
 import type { Space } from "./space";
+import { Baker } from "./baker";
 
-/** More triangles than these get no lines along their edges. */
-const MOST_WITH_EDGES = 20_000;
+/** Triangles that are copied to where they are seen; meshes that do not fit are drawn by the card's own copying. */
+const MOST_BAKED = 150_000;
+/** Ends of edges in all. */
+const MOST_EDGES = 400_000;
 
 const VERTEX = /* glsl */ `
+attribute vec3 ink;
+varying vec3 vColor;
 varying vec3 vNormal;
 varying vec3 vWay;
 varying vec3 vPlace;
 void main() {
+  vColor = ink;
+#ifdef USE_INSTANCING
+  vec4 world = modelMatrix * instanceMatrix * vec4(position, 1.0);
+  mat3 m = mat3(instanceMatrix);
+  // The matrix of cofactors: right for normals however the copy is stretched; length does not matter.
+  vec3 n = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * normal;
+#else
   vec4 world = modelMatrix * vec4(position, 1.0);
+  vec3 n = normal;
+#endif
   vec4 p = viewMatrix * world;
   vPlace = world.xyz;
-  vNormal = normalMatrix * normal;
+  vNormal = normalMatrix * normalize(n);
   vWay = -p.xyz;
   gl_Position = projectionMatrix * p;
 }`;
 
 const FRAGMENT = /* glsl */ `
 precision highp float;
-uniform vec3 uColor;
 uniform float uOpacity;
 uniform float uDark;
 uniform vec4 uCut;
+varying vec3 vColor;
 varying vec3 vNormal;
 varying vec3 vWay;
 varying vec3 vPlace;
@@ -39,72 +54,95 @@ void main() {
   float facing = abs(dot(normalize(vNormal), normalize(vWay)));
   float rim = pow(1.0 - facing, 2.2);
   vec3 ground = mix(vec3(0.42), vec3(0.62), uDark);
-  vec3 color = mix(uColor, ground, 0.35 + 0.35 * rim) * mix(0.82 + 0.18 * facing, 1.0, uDark);
+  vec3 color = mix(vColor, ground, 0.35 + 0.35 * rim) * mix(0.82 + 0.18 * facing, 1.0, uDark);
   gl_FragColor = vec4(color, clamp(uOpacity * (0.34 + 1.5 * rim), 0.0, 1.0));
 }`;
+
+/** A form with all the places where it is. */
+interface Thing { object: SceneObject; geometry: BufferGeometry; places: Matrix4[]; triangles: number }
 
 export class Ghosts {
   readonly group = new Group();
   private readonly cut = { value: new Vector4(0, 0, 0, 1) };
   private readonly dark = { value: 0 };
   private readonly opacity = { value: 0.3 };
-  private readonly edges: LineBasicMaterial[] = [];
-  private readonly meshes: { name: string; mesh: Mesh }[] = [];
+  private readonly material = new ShaderMaterial({
+    vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: DoubleSide,
+    uniforms: { uOpacity: this.opacity, uDark: this.dark, uCut: this.cut },
+  });
+  private readonly edges = new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false, toneMapped: false });
+  /** For rays to meet; never drawn. */
+  private readonly solids = new Map<string, Mesh[]>();
 
-  constructor(scene: Scene, private readonly space: Space) {
-    this.group.matrixAutoUpdate = false;
-    this.group.matrix.copy(space.mirror);
-    this.group.matrixWorldNeedsUpdate = true;
-    scene.objects.forEach((object) => this.add(object));
-    this.group.updateMatrixWorld(true);
-  }
-
-  private add(object: SceneObject): void {
-    const geometry = shape(object);
-    if (!geometry) return;
-    const material = this.material(object);
-    const triangles = (geometry.index?.count ?? geometry.getAttribute("position").count) / 3;
-    const edged = !object.sphere && triangles <= MOST_WITH_EDGES ? new EdgesGeometry(geometry, 28) : null;
-    const copies = object.copies?.length ? object.copies : [null];
-    for (const [index, copy] of copies.slice(0, 500).entries()) {
-      const mesh = new Mesh(geometry, material);
-      const parts: (Mesh | LineSegments)[] = [mesh];
-      if (edged) parts.push(new LineSegments(edged, this.edge()));
-      for (const part of parts) {
-        part.matrixAutoUpdate = false;
-        if (copy) part.matrix.copy(placement(copy));
-        this.group.add(part);
-      }
-      mesh.renderOrder = 1;
-      this.meshes.push({ name: object.names?.[index] ?? object.name, mesh });
+  constructor(scene: Scene, space: Space) {
+    const round = new SphereGeometry(1, 64, 40);
+    const things = scene.objects.flatMap((object): Thing[] => {
+      const geometry = object.sphere ? round : shape(object, space);
+      const places = placements(object, space);
+      return geometry ? [{ object, geometry, places, triangles: (geometry.getAttribute("position").count / 3) * places.length }] : [];
+    });
+    things.forEach((thing) => this.solidify(thing));
+    const meshes = things.filter((thing) => !thing.object.sphere).sort((a, b) => a.triangles - b.triangles);
+    const faces = new Baker();
+    let triangles = 0;
+    for (const thing of meshes) {
+      triangles += thing.triangles;
+      if (triangles <= MOST_BAKED) thing.places.forEach((place) => faces.add(thing.geometry, place, inkOf(thing.object)));
+      else this.draw(this.copies(thing.geometry, thing.places, () => inkOf(thing.object)));
     }
+    this.draw(faces.mesh(this.material));
+    const spheres = things.filter((thing) => thing.object.sphere);
+    // A thousand spheres need not be as round as one.
+    const ball = spheres.length > 40 ? new SphereGeometry(1, 24, 16) : round;
+    if (spheres.length > 0) this.draw(this.copies(ball, spheres.flatMap((s) => s.places), (i) => inkOf(spheres[i]!.object)));
+    this.draw(this.wires(meshes));
   }
 
-  private edge(): LineBasicMaterial {
-    if (this.edges.length === 0) {
-      this.edges.push(new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false, toneMapped: false }));
+  private draw(part: Mesh | LineSegments | null): void {
+    if (!part) return;
+    part.renderOrder = 1;
+    part.frustumCulled = false;
+    part.matrixAutoUpdate = false;
+    this.group.add(part);
+  }
+
+  private copies(geometry: BufferGeometry, places: Matrix4[], ink: (index: number) => [number, number, number]): InstancedMesh {
+    const own = geometry.clone();
+    own.setAttribute("ink", new InstancedBufferAttribute(new Float32Array(places.flatMap((_, i) => ink(i))), 3));
+    const mesh = new InstancedMesh(own, this.material, places.length);
+    places.forEach((place, i) => mesh.setMatrixAt(i, place));
+    return mesh;
+  }
+
+  /** Lines along the edges, of small things first. */
+  private wires(things: Thing[]): LineSegments | null {
+    const baker = new Baker();
+    for (const { geometry, places } of things) {
+      const edges = edgesOf(geometry);
+      if (!edges) continue;
+      if (baker.size + edges.getAttribute("position").count * places.length > MOST_EDGES) break;
+      places.forEach((place) => baker.add(edges, place, null));
     }
-    return this.edges[0]!;
+    return baker.lines(this.edges);
   }
 
-  private material(object: SceneObject): ShaderMaterial {
-    const color = object.color.map((x) => (Number.isFinite(x) ? encode(x) : 1)) as [number, number, number];
-    const uniforms = {
-      uColor: { value: new Color().setRGB(...color) }, uOpacity: this.opacity, uDark: this.dark, uCut: this.cut,
-    };
-    return new ShaderMaterial({
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, transparent: true, depthWrite: false, side: DoubleSide,
+  private solidify({ object, geometry, places }: Thing): void {
+    places.forEach((place, index) => {
+      const mesh = new Mesh(geometry, SOLID);
+      mesh.matrixWorld.copy(place);
+      const name = object.names?.[index] ?? object.name;
+      this.solids.set(name, [...(this.solids.get(name) ?? []), mesh]);
     });
   }
 
   theme(dark: boolean): void {
     this.dark.value = dark ? 1 : 0;
-    this.edges.forEach((edge) => edge.color.set(dark ? 0xb8bcc4 : 0x4c4a45));
+    this.edges.color.set(dark ? 0xb8bcc4 : 0x4c4a45);
   }
 
   strength(opacity: number): void {
     this.opacity.value = opacity;
-    this.edges.forEach((edge) => (edge.opacity = Math.min(1, opacity * 1.2)));
+    this.edges.opacity = Math.min(1, opacity * 1.2);
   }
 
   /** Takes away what lies beyond a plane; null takes away nothing. */
@@ -115,39 +153,12 @@ export class Ghosts {
 
   /** The parts of objects of a name, or of all, for rays to meet. */
   named(name: string | null): Mesh[] {
-    return this.meshes.filter((part) => name === null || part.name === name).map((part) => part.mesh);
-  }
-
-  /** The ghosts' space seen from the world, for those who place things in it. */
-  get mirror(): Matrix4 {
-    return this.space.mirror;
+    return name === null ? [...this.solids.values()].flat() : (this.solids.get(name) ?? []);
   }
 }
 
-function shape(object: SceneObject): BufferGeometry | null {
-  if (object.mesh) return unpack(object.mesh);
-  if (!object.sphere) return null;
-  const { center, radius } = object.sphere;
-  return new SphereGeometry(radius, 64, 40).translate(...center);
-}
+const SOLID = new MeshBasicMaterial({ side: DoubleSide });
 
-/** Positions are 16-bit steps from an origin. */
-function unpack(mesh: PackedMesh): BufferGeometry {
-  const packed = new Uint16Array(bytesOf(mesh.positions).buffer);
-  const bytes = bytesOf(mesh.indices).buffer;
-  const scale = typeof mesh.scale === "number" ? [mesh.scale, mesh.scale, mesh.scale] : mesh.scale;
-  const positions = new Float32Array(packed.length);
-  for (let i = 0; i < packed.length; i++) positions[i] = mesh.origin[i % 3]! + scale[i % 3]! * packed[i]!;
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(positions, 3));
-  geometry.setIndex(new BufferAttribute(mesh.wide ? new Uint32Array(bytes) : new Uint16Array(bytes), 1));
-  // Small meshes are mostly boxes: flat faces; large ones mostly round things.
-  const flat = (geometry.index?.count ?? 0) <= 1500 ? geometry.toNonIndexed() : geometry;
-  flat.computeVertexNormals();
-  return flat;
-}
-
-function placement(rows: number[]): Matrix4 {
-  const [a, b, c, d, e, f, g, h, i, j, k, l] = rows as [number, number, number, number, number, number, number, number, number, number, number, number];
-  return new Matrix4().set(a, b, c, d, e, f, g, h, i, j, k, l, 0, 0, 0, 1);
+function inkOf(object: SceneObject): [number, number, number] {
+  return object.color.map((x) => (Number.isFinite(x) ? encode(x) : 1)) as [number, number, number];
 }

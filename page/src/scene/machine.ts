@@ -21,6 +21,7 @@ export class Machine {
   private readonly right: Vector3;
   private readonly up: Vector3;
   private readonly look: Vector3;
+  /** How far the frame is from the eye. */
   private readonly depth: number;
   private readonly half: [number, number];
   private picture: CanvasRenderingContext2D | null = null;
@@ -31,7 +32,7 @@ export class Machine {
     this.eye = space.place(camera.eye);
     [this.right, this.up, this.look] = [camera.right, camera.up, camera.look].map((d) => space.direction(d)) as [Vector3, Vector3, Vector3];
     const first = page.trees[0]!.nodes[0]!;
-    const reach = first.t ?? this.eye.distanceTo(space.bounds.center);
+    const reach = first.t !== null ? space.length(first.t) : Math.max(this.eye.distanceTo(space.bounds.center), 0.5);
     this.depth = 0.34 * reach;
     const open = (degrees: number) => Math.tan((Math.min(Math.max(degrees, 5), 150) * Math.PI) / 360) * this.depth;
     this.half = [open(camera.fov_x), open(camera.fov_y)];
@@ -113,7 +114,7 @@ export class Machine {
     return `rgb(${at.data[0]} ${at.data[1]} ${at.data[2]})`;
   }
 
-  /** Puts the string through a place in the film; says what it touches how far away. */
+  /** Puts the string through a place in the film; says how far away it touches something, in metres. */
   aim(film: [number, number]): { touched: number | null } {
     const through = this.onFrame(film);
     const d = through.clone().sub(this.eye).normalize();
@@ -122,7 +123,7 @@ export class Machine {
     this.lines.set([...this.frame(), ...this.eyelet(), ...this.threads(film), ...this.grid(film),
       line(this.eye, end, STRING, 2.6), line(end, end.clone().addScaledVector(d, -this.depth * 0.06), [0.9, 0.2, 0.1], 5)]);
     this.dot(film);
-    return { touched: t };
+    return { touched: t === null ? null : this.space.metres(t) };
   }
 
   private frame(): Line[] {

@@ -47,7 +47,7 @@ function toLight(node: Node, a: Vector3, d: Vector3, space: Space, ghosts: Ghost
   const base = { a, b, open: !light, stub: false };
   if (node.light?.visible !== false) return { ...base, block: null };
   const reach = a.distanceTo(b);
-  const t = node.t ?? (node.blocker ? touch(ghosts, node.blocker, a.clone().addScaledVector(d, reach * 1e-4), d, reach) : null);
+  const t = node.t !== null ? space.length(node.t) : (node.blocker ? touch(ghosts, node.blocker, a.clone().addScaledVector(d, reach * 1e-4), d, reach) : null);
   const block = a.clone().addScaledVector(d, Math.min(t ?? reach * 0.5, reach));
   return { ...base, block };
 }

@@ -1,50 +1,49 @@
-// From the world to the space of the 3D view, which is right-handed: worlds of the other kind are mirrored.
-import { Box3, Matrix4, Sphere, Vector3 } from "three";
+// From the world to the space of the 3D view: right-handed, worlds of the other kind are mirrored, and of unit size.
+import { Matrix4, Sphere, Vector3 } from "three";
 
 import { cross, dot } from "../data/vector";
 import type { Page, Vec3 } from "../data/types";
+import { whole } from "./frame";
 
 export class Space {
   /** -1 if z is turned around. */
   readonly hand: number;
-  readonly bounds: Sphere;
+  /** Around all that is seen: the unit ball. */
+  readonly bounds = new Sphere(new Vector3(), 1);
   /** Axis of the view that is up: 0, 1 or 2, and which way. */
   readonly up: Vector3;
-  readonly mirror: Matrix4;
+  /** The view's space from the world. */
+  readonly matrix: Matrix4;
+  private readonly center: Vec3;
+  private readonly radius: number;
 
   constructor(page: Page) {
     const { right, up, look } = page.scene.camera;
     this.hand = dot(right, cross(look, up)) < 0 ? -1 : 1;
-    this.mirror = new Matrix4().makeScale(1, 1, this.hand);
+    ({ center: this.center, radius: this.radius } = whole(page));
+    const [x, y, z] = this.center;
+    this.matrix = new Matrix4().makeScale(1 / this.radius, 1 / this.radius, this.hand / this.radius)
+      .multiply(new Matrix4().makeTranslation(-x, -y, -z));
     this.up = dominant(this.direction(up));
-    this.bounds = this.around(page);
   }
 
   place(p: Vec3): Vector3 {
-    return new Vector3(p[0], p[1], p[2] * this.hand);
+    const [x, y, z] = this.center;
+    return new Vector3((p[0] - x) / this.radius, (p[1] - y) / this.radius, ((p[2] - z) / this.radius) * this.hand);
   }
 
   direction(d: Vec3): Vector3 {
-    return this.place(d).normalize();
+    return new Vector3(d[0], d[1], d[2] * this.hand).normalize();
   }
 
-  /** The ball around what is seen: the scene's bounds if sensible, else the rays' ends. */
-  private around(page: Page): Sphere {
-    const box = new Box3();
-    for (const corner of page.scene.bounds ?? []) box.expandByPoint(this.place(corner));
-    const rays = new Box3();
-    for (const node of page.trees[0]?.nodes ?? []) {
-      rays.expandByPoint(this.place(node.origin));
-      if (node.point) rays.expandByPoint(this.place(node.point));
-    }
-    const sphere = new Sphere();
-    const near = rays.getBoundingSphere(new Sphere());
-    if (box.isEmpty()) return near.radius > 0 ? near : new Sphere(new Vector3(), 1);
-    box.union(rays);
-    box.getBoundingSphere(sphere);
-    // A floor that reaches to the horizon must not make all else a dot.
-    const most = Math.max(near.radius * 6, 1e-6);
-    return sphere.radius > most ? new Sphere(near.center, most) : sphere;
+  /** A length of the world in the view. */
+  length(metres: number): number {
+    return metres / this.radius;
+  }
+
+  /** And back. */
+  metres(length: number): number {
+    return length * this.radius;
   }
 }
 

@@ -1,12 +1,13 @@
 // The 3D view: puts the parts together and keeps them in step with the store. Draws only when something changed.
 import { batch, effect } from "@preact/signals";
-import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
+import { Color, Scene, Vector3, WebGLRenderer } from "three";
 
 import { asksLight } from "../data/kinds";
 import type { Store } from "../state/store";
 import { wires } from "./boxes";
 import { FatLines, type Line } from "./fatlines";
 import { fateInk, rivalLines } from "./fates";
+import { opening, standoff } from "./frame";
 import { Ghosts } from "./ghosts";
 import { Labels } from "./labels";
 import { Machine } from "./machine";
@@ -16,11 +17,15 @@ import { attach, nearest } from "./pointer";
 import { ends, lines, type RayLine } from "./rays";
 import { Rig } from "./rig";
 import { Space } from "./space";
+import { ThinLines } from "./thinlines";
 
 export type Look = "eye" | "all" | "hit" | "plane" | "machine";
 
 /** With more rays than these lines do without casing: it would cover what is behind, and costs time. */
 const MANY = 3000;
+
+/** Milliseconds without movement after which the view is at rest. */
+const REST = 180;
 
 /** Pixels of the circle around a marked hit. */
 const MARK_RADIUS = 112;
@@ -33,6 +38,8 @@ export class Viewer {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly rays = new FatLines({ rank: 20 });
+  /** The same rays while the view moves, if they are many. */
+  private readonly thin = new ThinLines(20);
   private readonly crowd = new FatLines({ rank: 10, casing: 0, opacity: 0.4, arrows: false });
   private readonly rival = new FatLines({ rank: 14 });
   private readonly glow = new FatLines({ rank: 16, casing: 0, widen: 9, opacity: 0.55, arrows: false });
@@ -46,6 +53,10 @@ export class Viewer {
   private growBegan = 0;
   private size: [number, number] = [1, 1];
   private readonly pace = new Pace(() => this.resize());
+  /** When the view moved last; it is at rest if that was long ago. */
+  private movedAt = -Infinity;
+  private resting: ReturnType<typeof setTimeout> | undefined;
+  private frames = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement, layer: HTMLElement, private readonly store: Store) {
     // Lines smooth their own edges; many of them would pay dearly for having it done again.
@@ -54,9 +65,10 @@ export class Viewer {
     this.space = new Space(store.page);
     this.ghosts = new Ghosts(store.page.scene, this.space);
     this.machine = new Machine(store.page, this.space, this.ghosts);
-    this.rig = new Rig(this.space, () => this.invalidate());
+    this.rig = new Rig(this.space, () => this.moved());
     this.labels = new Labels(layer);
     this.scene.add(this.ghosts.group, this.machine.group);
+    this.scene.add(this.thin.lines);
     for (const set of this.sets()) this.scene.add(set.group);
     attach(canvas, this.rig, {
       hover: (at) => (store.hovered.value = at && this.pick(at, 7)),
@@ -140,12 +152,13 @@ export class Viewer {
 
   private rebuild(): void {
     const { store } = this;
-    this.rays.lean(store.g.value.nodes.length > MANY);
+    this.rays.lean(this.many());
     const style = { palette: store.palette.value, dark: store.dark.value };
     const comparing = store.tab.value === "compare" && store.rival.value !== null;
     const ink = comparing ? fateInk(store.pairs.value) : undefined;
     this.drawn = lines(store.g.value, store.plot.value, this.space, this.ghosts, { ...style, ...(ink && { ink }) });
     this.rays.set(this.drawn);
+    this.thin.set(this.many() ? this.drawn : []);
     this.rival.set(comparing ? rivalLines(store.rival.value!, store.pairs.value, this.space, this.ghosts, style) : []);
     const others = store.bundle.value ? store.page.trees.map((_, i) => i).filter((i) => i !== store.treeIndex.value) : [];
     this.crowd.set(others.flatMap((i) => lines(store.groveOf(i), null, this.space, this.ghosts, { ...style, thin: 0.5 })));
@@ -161,7 +174,9 @@ export class Viewer {
     const on = path.value;
     const few = g.value.nodes.length < 3;
     const rest = machine.value ? 0.12 : g.value.nodes.length > MANY ? 0.3 : 0.62;
-    this.rays.fade((i) => (few || on.has(this.drawn[i]!.node) || g.value.nodes[this.drawn[i]!.node]!.parent === chosen ? 1 : rest));
+    const strength = (i: number): number => (few || on.has(this.drawn[i]!.node) || g.value.nodes[this.drawn[i]!.node]!.parent === chosen ? 1 : rest);
+    this.rays.fade(strength);
+    this.thin.fade(strength, (i) => this.drawn[i]!.fades === true);
     const accent: [number, number, number] = dark.value ? [1, 0.84, 0.35] : [1, 0.72, 0.12];
     const glowing = machine.value ? [] : this.drawn.filter((line) => line.node === chosen || line.node === hovered.value);
     this.glow.set(glowing.map((line): Line => ({ ...line, color: accent, dash: 0, order: 0, alpha: line.node === chosen ? 1 : 0.6 })));
@@ -204,7 +219,8 @@ export class Viewer {
       const { target, direction, distance } = this.machine.viewpoint();
       rig.face(target, direction, distance, smooth);
     } else if (what === "eye") {
-      const reach = store.g.peek().nodes[0]!.t ?? eye.distanceTo(space.bounds.center);
+      const { t } = store.g.peek().nodes[0]!;
+      const reach = t !== null ? space.length(t) : Math.max(eye.distanceTo(space.bounds.center), 0.5);
       const d = space.direction(camera.look);
       rig.face(eye.clone().addScaledVector(d, reach), d, reach, smooth);
     } else if (what === "all") {
@@ -212,7 +228,7 @@ export class Viewer {
       const side = space.direction(camera.right);
       const direction = d.clone().multiplyScalar(0.75).addScaledVector(side, -0.75).addScaledVector(space.up, -0.5).normalize();
       const { center, radius } = this.ofRays();
-      rig.face(center, direction, (radius * 1.02) / Math.sin(Math.atan(Math.tan((rig.camera.fov * Math.PI) / 360) * Math.min(1, rig.camera.aspect))), smooth);
+      rig.face(center, direction, standoff(radius, rig.camera.fov, rig.camera.aspect), smooth);
     } else if (at && what === "hit") rig.center(at, this.span(node));
     else if (at && hit) {
       const n = space.direction(hit.normal ?? camera.up);
@@ -226,17 +242,14 @@ export class Viewer {
   /** The ball around what the rays touch. */
   private ofRays(): { center: Vector3; radius: number } {
     const nodes = this.store.g.peek().nodes.filter((node) => node.point && !asksLight(node));
-    const places = nodes.slice(0, 2000).map((node) => this.space.place(node.point!));
-    places.push(this.space.place(this.store.page.scene.camera.eye));
-    const box = new Box3().setFromPoints(places);
-    const center = box.getCenter(new Vector3());
-    const radius = places.reduce((r, p) => Math.max(r, p.distanceTo(center)), 0);
-    return { center, radius: Math.max(radius, this.space.bounds.radius * 0.12) };
+    const hits = nodes.slice(0, 2000).map((node) => this.space.place(node.point!).toArray());
+    const { center, radius } = opening(this.space.place(this.store.page.scene.camera.eye).toArray(), hits);
+    return { center: new Vector3(...center), radius };
   }
 
   /** How far away a hit is looked at. */
   private span(node: { t: number | null }): number {
-    const reach = node.t ?? this.space.bounds.radius * 0.4;
+    const reach = node.t !== null ? this.space.length(node.t) : this.space.bounds.radius * 0.4;
     return Math.min(Math.max(reach * 1.2, this.space.bounds.radius * 0.15), this.space.bounds.radius * 1.5);
   }
 
@@ -266,6 +279,18 @@ export class Viewer {
     this.invalidate();
   }
 
+  private many(): boolean {
+    return this.store.g.peek().nodes.length > MANY;
+  }
+
+  /** Draws, and draws again in full once the view is at rest. */
+  private moved(): void {
+    this.movedAt = performance.now();
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.invalidate(), REST + 20);
+    this.invalidate();
+  }
+
   invalidate(): void {
     if (this.waiting) return;
     this.waiting = true;
@@ -279,10 +304,16 @@ export class Viewer {
     if (this.grown < 1) this.grown = Math.min((now - this.growBegan) / time, 1);
     const step = this.store.step.peek();
     this.rays.at(step ?? 1e9, Math.max(this.grown, 0));
+    this.thin.at(step ?? 1e9);
+    const quick = this.many() && now - this.movedAt < REST;
+    this.thin.lines.visible = quick;
+    this.rays.group.visible = !quick && this.drawn.length > 0;
     const [width, height] = this.size;
     if (this.marked) this.signs.group.scale.setScalar(this.rig.pixel(this.marked.at, height) * Math.min(MARK_RADIUS, height / 6));
     this.signs.group.visible = this.marked !== null && !this.rig.sits;
     this.renderer.render(this.scene, this.rig.camera);
+    this.canvas.dataset["calls"] = String(this.renderer.info.render.calls);
+    this.canvas.dataset["frames"] = String(++this.frames);
     this.pace.drawn(now);
     this.labels.show(this.labelled(), this.rig.camera, width, height);
     if (moving || this.grown < 1) this.invalidate();

@@ -13,7 +13,7 @@ export function Header({ store }: { store: Store }): JSX.Element {
       <p class="facts">
         <span><span class="wide-only">pixel </span>{tuple(tree.pixel, 6)}</span>
         <span class="wide-only">{tree.integrator}</span>
-        <span class="wide-only">{count(tree.nodes.length)} rays</span>
+        <span class="wide-only">{count(tree.nodes.length)}{tree.left_out && ` of ${count(tree.nodes.length + tree.left_out.rays)}`} {tree.nodes.length === 1 ? "ray" : "rays"}</span>
         <span class="value"><Swatch rgb={tree.rgb} /><span class="wide-only">{tree.rgb.map((x) => num(x, 3)).join("  ")}</span></span>
       </p>
       <SamplePicker store={store} />

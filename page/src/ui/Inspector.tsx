@@ -6,6 +6,7 @@ import { facts } from "../data/facts";
 import { pathTo } from "../data/forest";
 import { formulas, type Formula, type Term } from "../data/formula";
 import { isUntraced, lookOf, stopOf } from "../data/kinds";
+import { belowRay } from "../data/missing";
 import { num, percent, share } from "../data/number";
 import { unitTest } from "../data/snippet";
 import type { Store } from "../state/store";
@@ -28,6 +29,7 @@ export function Inspector({ store }: { store: Store }): JSX.Element {
           {node.stop && <StopBadge stop={node.stop} />}
         </p>
         <p class="adds">{adds(store)}</p>
+        {node.left_out && <p class="missing">{belowRay(node.left_out, g.tree)}</p>}
       </header>
       <Actions store={store} />
       {g.children[node.id]!.length > 0 && (
@@ -64,7 +66,7 @@ function adds(store: Store): string {
   const [g, node] = [store.g.value, store.node.value];
   const own = percent(share(node.contribution, g.tree.rgb));
   const all = percent(share(g.tree.rgb, g.tree.rgb) === 0 ? 0 : g.shares[node.id]! / lum(g.tree.rgb));
-  if (g.children[node.id]!.length === 0) return `adds ${own} of the sample`;
+  if (g.children[node.id]!.length === 0 && !node.left_out) return `adds ${own} of the sample`;
   return `adds ${own} of the sample itself, ${all} with all that follow`;
 }
 

@@ -7,7 +7,7 @@ import { cssOf, stopOf } from "../data/kinds";
 import { count, num, percent } from "../data/number";
 import { statistics, type Share, type Statistics } from "../data/statistics";
 import type { Store } from "../state/store";
-import { Bar, Choice, Empty, KindLine, Section } from "./parts";
+import { Bar, Choice, Empty, KindLine, LeftOutNote, Section } from "./parts";
 
 export function Numbers({ store }: { store: Store }): JSX.Element {
   const all = useSignal<"this" | "all">("this");
@@ -17,6 +17,7 @@ export function Numbers({ store }: { store: Store }): JSX.Element {
   return (
     <>
       {many && <div class="rowed"><Choice<"this" | "all"> label="Which samples" value={all.value} options={[["this", "This sample"], ["all", `All ${store.page.trees.length} in this page`]]} onChange={(v) => (all.value = v)} /></div>}
+      <LeftOutNote store={store} />
       <Killed s={s} />
       <Section title="Light by length of the path" note="what the rays of each depth add themselves">
         <Depths s={s} />
@@ -46,13 +47,15 @@ function Killed({ s }: { s: Statistics }): JSX.Element {
   const whole = s.value + s.bound || 1;
   return (
     <Section title="Cut off">
-      <div class="killed" role="img" aria-label={`At most ${percent(relative)} of the value was cut off`}>
+      <div class="killed" role="img" aria-label={`${s.unbounded ? "About" : "At most"} ${percent(relative)} of the value was cut off`}>
         <i style={{ width: `${(s.value / whole) * 100}%` }} /><b style={{ width: `${(s.bound / whole) * 100}%` }} />
       </div>
       <p class="note">
         {s.bound === 0
           ? "No branch was given up: nothing is missing."
-          : <>Branches that were given up had {num(luminance(s.killed), 3)} of the pixel. If each had brought the brightest light seen, {num(s.bound, 3)} is missing at most: {percent(relative)} of the value {num(s.value, 3)}.</>}
+          : <>Branches that were given up had {num(luminance(s.killed), 3)} of the pixel. {s.unbounded
+            ? <>There is no bound on what they would have brought: {s.unbounded}. If each had brought the brightest light seen here, {num(s.bound, 3)} would be missing</>
+            : <>{num(s.bound, 3)} is missing at most, whatever in the scene they had met</>}: {percent(relative)} of the value {num(s.value, 3)}.</>}
       </p>
     </Section>
   );

@@ -4,7 +4,8 @@ import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
 import { cssOf, isUntraced, lookOf } from "../data/kinds";
-import { percent, share } from "../data/number";
+import { belowRay } from "../data/missing";
+import { count, percent, share } from "../data/number";
 import type { Node } from "../data/types";
 import type { Store } from "../state/store";
 import { Bar, StopBadge } from "./parts";
@@ -62,7 +63,7 @@ function Row({ store, id }: { store: Store; id: number }): JSX.Element {
       <span class={`turn ${branches ? "" : "leaf"} ${closed ? "" : "open"}`} aria-hidden="true"
         onClick={(event) => { event.stopPropagation(); store.fold(id, !closed); }}>{branches ? "▸" : ""}</span>
       <span class="letter" style={{ "--kind": cssOf(node.kind, store.palette.value) }}><i />{g.letters[id]}</span>
-      <span class="name">{nameOf(node)}{closed && <em> +{g.sizes[id]! - 1}</em>}</span>
+      <span class="name">{nameOf(node)}{closed && <em> +{g.sizes[id]! - 1}</em>}{node.left_out && <em class="missing" title={belowRay(node.left_out, g.tree)}> {count(node.left_out.rays)} left out</em>}</span>
       {node.stop && <StopBadge stop={node.stop} brief />}
       <Bar share={part} label={`${percent(own)} of the sample itself`} />
     </div>

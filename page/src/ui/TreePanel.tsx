@@ -5,7 +5,7 @@ import type { Order } from "../data/forest";
 import { count } from "../data/number";
 import type { Store, TreeStyle } from "../state/store";
 import { Outline } from "./Outline";
-import { Choice } from "./parts";
+import { Choice, LeftOutNote } from "./parts";
 import { Slide } from "./Slide";
 
 export function TreePanel({ store }: { store: Store }): JSX.Element {
@@ -20,9 +20,10 @@ export function TreePanel({ store }: { store: Store }): JSX.Element {
           <option value="recorded">recursion</option><option value="contribution">contribution</option><option value="size">rays</option>
         </select></label>
       </div>
+      <LeftOutNote store={store} />
       {store.treeStyle.value === "slide" ? <Slide store={store} /> : <Outline store={store} />}
       <div class="tally">
-        <span>{count(g.nodes.length)} rays{shown < g.nodes.length && `, ${count(shown)} shown`}</span>
+        <span>{count(g.nodes.length)} {g.nodes.length === 1 ? "ray" : "rays"}{shown < g.nodes.length && `, ${count(shown)} shown`}</span>
         <button type="button" title="Fold all" onClick={() => store.foldAll(true)}>fold</button>
         <button type="button" title="Open all" onClick={() => store.foldAll(false)}>open</button>
       </div>

@@ -135,6 +135,21 @@ function end(pen: Pen, id: number, x: number, y: number): void {
     c.globalAlpha = presence(store, id);
   }
   if (words) glyph(pen, id, x, y, r, hit);
+  if (words && node.left_out) {
+    // A branch that is cut off: a stump with the number of its rays.
+    c.strokeStyle = ink.quiet;
+    c.setLineDash([2, 2]);
+    c.beginPath();
+    c.moveTo(x + r * 0.7, y + r * 0.7);
+    c.lineTo(x + r * 0.7 + 9, y + r * 0.7 + 9);
+    c.stroke();
+    c.setLineDash([]);
+    c.fillStyle = ink.quiet;
+    c.font = "11px system-ui, sans-serif";
+    c.textAlign = "left";
+    c.fillText(`… ${node.left_out.rays}`, x + r * 0.7 + 10, y + r * 0.7 + 12);
+    c.textAlign = "center";
+  }
   if (store.folded.value.has(id) && words) {
     c.fillStyle = ink.quiet;
     c.font = "11px system-ui, sans-serif";

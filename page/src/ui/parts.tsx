@@ -3,6 +3,7 @@ import type { ComponentChildren, JSX } from "preact";
 
 import { css } from "../data/color";
 import { cssOf, lookOf, stopOf } from "../data/kinds";
+import { ofPage } from "../data/missing";
 import { triple } from "../data/number";
 import type { Kind, Rgb } from "../data/types";
 import type { Store } from "../state/store";
@@ -73,6 +74,19 @@ export function Section({ title, note, children }: { title: string; note?: strin
       <h3>{title}{note && <small> {note}</small>}</h3>
       {children}
     </section>
+  );
+}
+
+/** What of the rays is not in this page, and how to get all. */
+export function LeftOutNote({ store }: { store: Store }): JSX.Element | null {
+  const said = ofPage(store.page, store.g.value.tree);
+  if (said.length === 0) return null;
+  const [first, ...rest] = said;
+  return (
+    <details class="left-out">
+      <summary>{first}</summary>
+      {rest.map((sentence) => <p key={sentence}>{sentence}</p>)}
+    </details>
   );
 }
 

@@ -6,6 +6,7 @@ import type { Browser, Page as Tab } from "playwright-core";
 import type { Page, Tree } from "../../src/data/types";
 import { launch, open, type Opened } from "../support/browser";
 import { whitted } from "../support/fixture";
+import { missed, scaledPage } from "../support/scale";
 import { write } from "../support/fill";
 import { brief, page, tree } from "../support/synthetic";
 
@@ -213,6 +214,75 @@ describe("the page", () => {
       await done(opened);
     });
   }
+});
+
+/** Pixels of the 3D view, read by the page's own graphics: how many have another colour than the corner. */
+const marked = (tab: Tab): Promise<number> => tab.evaluate(() => {
+  const viewer = window.durer!.viewer!;
+  const gl = viewer["renderer"].getContext();
+  // Drawn and read in one go: a picture that was shown is no longer there.
+  viewer["frame"](performance.now());
+  const [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+  const pixels = new Uint8Array(4 * w * h);
+  gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  let count = 0;
+  for (let i = 4; i < pixels.length; i += 4) {
+    if (Math.abs(pixels[i]! - pixels[0]!) + Math.abs(pixels[i + 1]! - pixels[1]!) + Math.abs(pixels[i + 2]! - pixels[2]!) > 12) count++;
+  }
+  return count / (w * h);
+});
+
+describe("the 3D view", () => {
+  const upwards: [number, number, number] = [0, 1, 0];
+  for (const size of [1e-18, 1, 1e18]) {
+    it(`shows something of a world of size ${size}, hit or missed`, async () => {
+      for (const document of [whitted(), missed(whitted(), upwards)]) {
+        const opened = await open(browser, write(scaledPage(document, size), "sized"));
+        expect(await marked(opened.tab)).toBeGreaterThan(0.05);
+        // And without the ghosts: the rays themselves.
+        await opened.tab.evaluate(() => void (window.durer!.viewer!.ghosts.group.visible = false));
+        expect(await marked(opened.tab)).toBeGreaterThan(0.0005);
+        await done(opened);
+      }
+    });
+  }
+
+  it("is drawn in a few calls, and only if something changes", async () => {
+    for (const document of [whitted(), page([brief(tree(10_000))])]) {
+      const opened = await open(browser, write(document, "calls"));
+      const { tab } = opened;
+      await tab.evaluate(() => window.durer!.viewer!.turn(3));
+      expect(Number(await canvas(tab, "calls"))).toBeLessThanOrEqual(8);
+      await tab.waitForTimeout(2500);
+      const frames = await canvas(tab, "frames");
+      await tab.waitForTimeout(1000);
+      expect(await canvas(tab, "frames")).toBe(frames);
+      expect(Number(await canvas(tab, "calls"))).toBeLessThanOrEqual(8);
+      await done(opened);
+    }
+  });
+});
+
+describe("a page that had no room for all rays", () => {
+  it("says how many, where, and how to get them", async () => {
+    const whole = tree(40);
+    const missing = { rays: 1234, contribution: [0.01, 0.01, 0.01] as [number, number, number], result: [0, 0, 0] as [number, number, number] };
+    const nodes = whole.nodes.map((node) => (node.id === 1 ? { ...node, whole_id: 7, left_out: missing } : { ...node, whole_id: node.id }));
+    const cut = { ...page([{ ...whole, nodes, left_out: missing }]), left_out: ["the rays of 5 more samples"] };
+    const opened = await open(browser, write(cut, "cut"), { hash: "#tree=outline" });
+    const { tab } = opened;
+    const note = tab.locator(".column.tree .left-out");
+    const [told, all] = ((await note.locator("summary").textContent()) ?? "").match(/[\d\s.,]+(?= of| rays)/gu)!.map((x) => Number(x.replace(/\D/gu, "")));
+    expect([told, all]).toEqual([1234, 1234 + nodes.length]);
+    await note.locator("summary").click();
+    expect(await note.textContent()).toContain("the rays of 5 more samples");
+    expect(await note.textContent()).toContain("-o tree.json");
+    await tab.locator("#row-1 .name").click();
+    await shows(tab, 1);
+    expect(await tab.locator(".inspector .missing").textContent()).toContain("left out of this page");
+    expect(await fact(tab, "id in the JSON")).toBe("7");
+    await done(opened);
+  });
 });
 
 describe("ten thousand rays", () => {

@@ -21,6 +21,8 @@ interface Figures {
   opened: number;
   /** Frames per second while the camera turns once around the rays. */
   fps: number;
+  /** Draw calls of a frame while it turns, and at rest. */
+  calls: { turning: number; resting: number };
   /** Seconds from pressing a key to a finished frame with the next ray selected: median and worst. */
   step: { median: number; worst: number };
   /** Who draws, as WebGL calls it. */
@@ -38,6 +40,10 @@ async function measure(browser: Browser, path: string): Promise<Figures> {
   // A warm-up, so that shaders are compiled.
   await tab.evaluate(() => window.durer!.viewer!.turn(5));
   const fps = await tab.evaluate((frames) => window.durer!.viewer!.turn(frames), FRAMES);
+  const calls = (): Promise<number> => tab.evaluate(() => window.durer!.viewer!["renderer"].info.render.calls);
+  const turning = await calls();
+  await tab.waitForTimeout(1500);
+  const resting = await calls();
   const steps = await tab.evaluate(async (count) => {
     const frame = (): Promise<number> => new Promise((done) => requestAnimationFrame(done));
     const { store, viewer } = window.durer!;
@@ -64,7 +70,7 @@ async function measure(browser: Browser, path: string): Promise<Figures> {
   for (const complaint of [...requests, ...complaints]) console.error(`${path}: ${complaint}`);
   await tab.context().close();
   return {
-    page: basename(path, ".html"), bytes: statSync(path).size, rays, shown, opened, fps,
+    page: basename(path, ".html"), bytes: statSync(path).size, rays, shown, opened, fps, calls: { turning, resting },
     step: { median: steps[Math.floor(steps.length / 2)]!, worst: steps.at(-1)! }, renderer,
   };
 }

@@ -9,6 +9,10 @@ impl SampleOptions {
     pub(crate) fn overlaid(&self, words: &str) -> Result<Self, WrongUsage> {
         let wrong = |why: String| WrongUsage(format!("--diff \"{words}\": {why}"));
         let split = shlex::split(words).ok_or_else(|| wrong("a quotation mark is not closed".to_owned()))?;
+        if split.is_empty() {
+            let why = "there is nothing in it\n  help: name what differs, such as --diff '--max-depth 2'";
+            return Err(wrong(why.to_owned()));
+        }
         let command = Self::augment_args(Command::new("--diff").no_binary_name(true).disable_help_flag(true));
         let said = |error: Error| {
             let text = error.to_string();

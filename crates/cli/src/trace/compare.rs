@@ -24,13 +24,12 @@ pub(super) fn add(
              help: add --width and --height to the options"
         )));
     }
-    let samples = twin.samples(pixel);
-    let is_there = |tree: &Tree| (tree.sample as usize) < samples.len();
+    let samples = twin.prepared.job().sample_count(pixel);
+    let is_there = |tree: &Tree| tree.sample < samples;
     if let Some(tree) = page.trees.iter().take(chosen).find(|tree| !is_there(tree)) {
         return Err(WrongUsage(format!(
             "--diff \"{options}\": there is no sample {}: the pixel has {} there\n  help: add --spp to the options",
-            tree.sample,
-            samples.len()
+            tree.sample, samples
         )));
     }
     page.trees.retain(is_there);
@@ -41,7 +40,7 @@ pub(super) fn add(
         "this sample"
     };
     let others: Vec<Tree> =
-        page.trees.iter().map(|t| twin.tree(pixel, &samples, t.sample, Detail::default())).collect();
+        page.trees.iter().map(|t| twin.tree_of(pixel, samples, t.sample, Detail::default())).collect();
     for (tree, other) in page.trees.iter_mut().zip(&others) {
         tree.diff = Some(Comparison::new(tree, other, options, whole));
     }

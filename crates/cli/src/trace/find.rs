@@ -7,7 +7,7 @@ use durer::{
     tree::{Find, Found},
 };
 
-use super::Args;
+use super::{Args, check_many};
 use crate::{
     exit::{WrongUsage, tell},
     interrupt::Interrupt,
@@ -31,6 +31,9 @@ pub(super) fn search(
         Antialias::Supersample => u64::from(prepared.settings.samples),
         Antialias::Adaptive(_) => 4,
     };
+    if prepared.settings.antialias == Antialias::Supersample {
+        check_many("--find takes", prepared.settings.samples)?;
+    }
     let bar = Bar::new(window.area() * samples, args.talk.quiet);
     let cancel = interrupt.rendering();
     let found = find.search(prepared, &bar, cancel);

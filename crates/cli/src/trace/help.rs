@@ -13,9 +13,12 @@ Examples:
   durer trace room.glb --pixel 10,20 --sample brightest
 
 Give the options of the render whose sample you want: the size and --spp decide
-where in the pixel a sample lies. With --spp 1 the last line, `pixel R G B`, has
-the very bits of that pixel in `durer render --spp 1 -o x.exr`; with --sample all
-it has those of the pixel. With --antialias adaptive the samples are, in this
+where in the pixel a sample lies. With --sample all the last line, `pixel R G B`,
+has the very bits of the pixel in `durer render -o x.exr`. So it has without where
+the pixel has one sample, as with --spp 1 unless rays are distributed: nested, a
+pixel has --spp times --time-samples times --lens-samples of them; shared, as many
+as the largest of these numbers, --shadow-rays and --gloss-rays. The first line
+says how many there are. With --antialias adaptive the samples are, in this
 order: the pixel's corners (upper left, upper right, lower left, lower right),
 then for each split what is new of the middles of its upper and left edges, its
 centre and the middles of its right and lower edges; a part that is split no

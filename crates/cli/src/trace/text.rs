@@ -1,9 +1,9 @@
 //! The ray tree to read.
 use std::fmt::Write;
 
-use durer::tree::{Comparison, Light, Node, Number, Page, Rgb, Tree};
+use durer::tree::{Comparison, Node, Number, Page, Tree, Wording, met, short, triple};
 
-use crate::number::{pixel_line, significant, triple};
+use crate::number::pixel_line;
 
 /// Rays of a difference that are named; more are counted.
 const NAMED: usize = 12;
@@ -40,35 +40,52 @@ fn tree(tree: &Tree) -> String {
         let _ = writeln!(text, "{:indent$}{}", "", line(node), indent = 2 * level);
         open.extend(below.iter().rev().map(|&child| (child, level + 1)));
     }
-    if tree.killed.iter().any(|v| v.0 > 0.0) {
-        let bound = tree.killed.map(|v| Number(v.0 * tree.max_radiance.0));
-        let most = significant(tree.max_radiance.0, 4);
-        let killed = rgb(tree.killed);
-        let _ = match tree.max_radiance.0 > 0.0 {
-            true => writeln!(
-                text,
-                "given up {killed} of the pixel: at most {} of light, if nothing is brighter than {most}",
-                rgb(bound)
-            ),
-            false => writeln!(text, "given up {killed} of the pixel; no light was seen that could bound it"),
-        };
+    text + &given_up(tree)
+}
+
+/// What rays that were not traced would have carried; nothing if there are none.
+fn given_up(tree: &Tree) -> String {
+    if tree.killed.iter().all(|v| v.0 <= 0.0) {
+        return String::new();
     }
-    text
+    let killed = triple(tree.killed);
+    match (tree.missing, &tree.no_bound) {
+        (Some(missing), _) => {
+            let most = tree
+                .brightest
+                .map(|most| format!(", as nothing in the scene is brighter than {}", short(most)));
+            let most = most.unwrap_or_default();
+            format!("given up {killed} of the pixel: at most {} of light{most}\n", triple(missing))
+        }
+        (None, why) => {
+            let why = why.as_deref().unwrap_or("nothing is known of the scene's light");
+            let seen = tree.max_radiance;
+            let guess = triple(tree.killed.map(|v| Number(v.0 * seen.0)));
+            let guess = match seen.0 > 0.0 {
+                true => format!(
+                    "; {guess} of light if nothing is brighter than the {} that was seen",
+                    short(seen)
+                ),
+                false => String::new(),
+            };
+            format!("given up {killed} of the pixel; no bound: {why}{guess}\n")
+        }
+    }
 }
 
 fn line(node: &Node) -> String {
-    let mut parts = vec![met(node)];
+    let mut parts = vec![met(node, Wording::Full)];
     if node.is_untraced() {
-        parts.push(format!("weight {}", rgb(node.weight)));
-        parts.push(format!("would have carried {} of the pixel", rgb(node.lost)));
+        parts.push(format!("weight {}", triple(node.weight)));
+        parts.push(format!("would have carried {} of the pixel", triple(node.lost)));
     } else {
         parts.extend(interface(node));
         if node.parent.is_some() {
-            parts.push(format!("weight {}", rgb(node.weight)));
+            parts.push(format!("weight {}", triple(node.weight)));
         }
-        parts.push(format!("adds {}", rgb(node.contribution)));
+        parts.push(format!("adds {}", triple(node.contribution)));
         if node.light.is_none() {
-            parts.push(format!("result {}", rgb(node.result)));
+            parts.push(format!("result {}", triple(node.result)));
         }
     }
     parts.extend(node.stop.as_ref().map(|stop| format!("[{stop}{}]", limit(node))));
@@ -78,7 +95,7 @@ fn line(node: &Node) -> String {
 /// What was compared when the ray was given up.
 fn limit(node: &Node) -> String {
     let Some(limit) = node.limit else { return String::new() };
-    let [value, threshold] = [limit.value, limit.threshold].map(|v| significant(v.0, 4));
+    let [value, threshold] = [limit.value, limit.threshold].map(short);
     match node.stop.as_deref() {
         Some("depth-limit") => format!(": depth {value}, at most {threshold}"),
         _ => format!(": {value} <= {threshold}"),
@@ -91,37 +108,9 @@ fn interface(node: &Node) -> Option<String> {
     let share = match (fresnel.tir, fresnel.constant) {
         (true, _) => "reflects all".to_owned(),
         (false, true) => "shares by constants".to_owned(),
-        (false, false) => format!("reflects {}", significant(fresnel.reflect.0, 3)),
+        (false, false) => format!("reflects {}", short(fresnel.reflect)),
     };
-    Some(format!("n {} to {} {share}", significant(media.n1.0, 4), significant(media.n2.0, 4)))
-}
-
-/// What the ray is for and what became of it.
-fn met(node: &Node) -> String {
-    let kind = &node.kind;
-    if node.is_untraced() {
-        return format!("{kind} not traced");
-    }
-    match (&node.object, &node.light) {
-        (_, Some(event)) => format!("{kind} to {}{}", light_name(event), fate(node, event)),
-        (Some(object), None) => {
-            let side = node.side.as_deref().unwrap_or("?");
-            format!("{kind} hits {object} ({side}) at {}", metres(node))
-        }
-        (None, None) => format!("{kind} leaves the scene"),
-    }
-}
-
-fn fate(node: &Node, event: &Light) -> String {
-    match (event.visible, &node.blocker) {
-        (true, _) if event.point.is_some() => format!(" at {}", metres(node)),
-        (true, _) => String::new(),
-        (false, Some(blocker)) => {
-            let lacks: Rgb = std::array::from_fn(|i| Number(node.throughput[i].0 * event.unoccluded[i].0));
-            format!(" blocked by {blocker}, would have carried {}", rgb(lacks))
-        }
-        (false, None) => " blocked".to_owned(),
-    }
+    Some(format!("n {} to {} {share}", short(media.n1), short(media.n2)))
 }
 
 /// What the other options change.
@@ -159,23 +148,11 @@ fn what_changed(a: &Node, b: &Node, keys: &[String]) -> String {
         parts.push(match key.as_str() {
             "object" => format!("hits {} instead of {}", word(&b.object), word(&a.object)),
             "stop" => format!("[{}] instead of [{}]", word(&b.stop), word(&a.stop)),
-            "weight" => format!("weight {} instead of {}", rgb(b.weight), rgb(a.weight)),
-            "result" => format!("result {} instead of {}", rgb(b.result), rgb(a.result)),
+            "weight" => format!("weight {} instead of {}", triple(b.weight), triple(a.weight)),
+            "result" => format!("result {} instead of {}", triple(b.result), triple(a.result)),
             "throughput" | "origin" | "direction" | "t" => continue,
             key => key.to_owned(),
         });
     }
     if parts.is_empty() { keys.join(", ") } else { parts.join(", ") }
-}
-
-fn metres(node: &Node) -> String {
-    node.t.map_or_else(|| "?".to_owned(), |t| format!("{} m", significant(t.0, 4)))
-}
-
-fn light_name(event: &Light) -> String {
-    event.name.clone().unwrap_or_else(|| format!("light {}", event.index))
-}
-
-fn rgb(v: Rgb) -> String {
-    triple(v.map(|v| v.0))
 }

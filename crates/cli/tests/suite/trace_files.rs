@@ -105,6 +105,35 @@ fn a_difference_is_told_in_a_sentence_and_in_json() {
 }
 
 #[test]
+fn what_is_no_light_is_not_compared_as_light() {
+    let place = Place::new();
+    let diff = |words: &str, other: &str| {
+        let mut command =
+            place.command(&format!("trace --width 32 --height 18 --spp 1 --pixel 16,9 {words}"));
+        crate::run::Ran::of(command.args(["--diff", other]).output().expect("durer runs"))
+    };
+    let depth = "--integrator cast --show depth";
+    for (words, other, said) in [
+        ("", depth, "(the one is light, the other depth)"),
+        (depth, "--integrator whitted", "(the one is depth, the other light)"),
+        (depth, "--show normal", "(the one is depth, the other normal)"),
+    ] {
+        let text = diff(words, other).stdout;
+        assert!(text.contains(said) && !text.contains(" % of this"), "{words}, {other}: {text}");
+        let json = diff(&format!("{words} --json"), other).json();
+        assert!(json["other"]["diff"]["relative"].is_null(), "{words}, {other}");
+        assert!(json["other"]["diff"]["summary"].as_str().is_some_and(|s| s.contains(said)));
+    }
+    let same = diff(depth, "snell").stdout;
+    assert!(same.contains("(it is depth, not light)"), "{same}");
+    let light = diff("--json", "--max-depth 0").json();
+    assert!(
+        light["other"]["diff"]["relative"].is_number()
+            && light["values"].as_array().is_some_and(|v| v.len() == 1)
+    );
+}
+
+#[test]
 fn another_scene_and_another_integrator_can_be_compared() {
     let place = Place::new();
     for (words, sign) in [

@@ -43,6 +43,104 @@ fn the_samples_of_a_pixel_sum_to_the_picture() {
 }
 
 #[test]
+fn nested_samples_are_all_the_pixel_and_one_of_them_is_not() {
+    let place = Place::new();
+    let options = "cook --integrator distributed --width 24 --height 18 --spp 1 --sampling nested --lens-samples 3 --time-samples 2";
+    place.done(&format!("render {options} -o x.exr"));
+    let pixel = place.exr("x.exr").bits(["R", "G", "B"], [12, 9]);
+    let all = place.done(&format!("trace {options} --pixel 12,9 --sample all"));
+    assert_eq!(all.pixel().map(f32::to_bits), pixel);
+    let one = place.done(&format!("trace {options} --pixel 12,9"));
+    assert!(one.stdout.contains("sample 0 of 6\n"), "{}", one.stdout);
+    assert_ne!(one.pixel().map(f32::to_bits), pixel);
+    let help = place.done("trace --help").stdout;
+    assert!(!help.contains("With --spp 1 the last line"), "{help}");
+    assert!(help.contains("nested, a\npixel has --spp times --time-samples times --lens-samples"), "{help}");
+}
+
+#[test]
+fn any_number_of_samples_is_traced_one_at_a_time_or_refused() {
+    let place = Place::new();
+    let most = "--width 64 --height 36 --spp 4294967295 --pixel 37,20";
+    let ran = place.done(&format!("trace {most} --sample 4294967294"));
+    assert!(ran.stdout.contains("sample 4294967294 of 4294967295"), "{}", ran.stdout);
+    let ran = place.done(&format!("explain {most} --sample 7"));
+    assert!(ran.stdout.starts_with("Sample 7 of 4294967295 of pixel 37,20"), "{}", ran.stdout);
+    for words in [
+        format!("trace {most} --sample all"),
+        format!("trace {most} -o tree.page.json"),
+        format!("explain {most}"),
+        "trace --width 8 --height 8 --spp 4294967295 --find firefly".to_owned(),
+        // Not too many samples, but too many rays.
+        "trace --width 64 --height 36 --spp 65536 --pixel 37,20 --sample all".to_owned(),
+    ] {
+        let ran = place.run(&words);
+        assert_eq!(ran.code, 2, "{words}: {}", ran.stderr);
+        assert!(
+            ran.stderr.contains("are not kept") && ran.stderr.contains("help: lower --spp"),
+            "{}",
+            ran.stderr
+        );
+    }
+}
+
+#[test]
+fn the_brightest_sample_is_that_of_all() {
+    let place = Place::new();
+    let words = "trace --width 64 --height 36 --spp 16 --pixel 24,14";
+    let brightest = place.done(&format!("{words} --sample brightest")).pixel();
+    let light = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let all = (0..16).map(|k| place.done(&format!("{words} --sample {k}")).pixel());
+    let best = all.reduce(|best, v| if light(v) > light(best) { v } else { best }).expect("samples");
+    assert_eq!(brightest, best);
+}
+
+#[test]
+fn blocked_light_is_added_light_and_given_up_rays_are_shares() {
+    let place = Place::new();
+    let mut blocked = 0;
+    for y in [20, 24, 28, 32] {
+        for x in (2..64).step_by(4) {
+            let ran = place.done(&format!("trace --width 64 --height 36 --spp 1 --pixel {x},{y}"));
+            for line in ran.stdout.lines() {
+                assert!(!line.contains("would have carried") || line.contains(" of the pixel"), "{line}");
+                assert!(!line.contains(", blocked by ") || line.contains(", would have added "), "{line}");
+                blocked += usize::from(line.contains(", blocked by "));
+            }
+        }
+    }
+    assert!(blocked > 3, "{blocked}");
+}
+
+#[test]
+fn what_was_given_up_has_a_bound_or_a_reason_why_not() {
+    let head = "LookAt 0 0 -4 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 40\nIntegrator \"whitted\" \"integer maxdepth\" 0\nWorldBegin\n\
+                Material \"mirror\" \"rgb reflectance\" [.5 .5 .5]\nShape \"sphere\"\nMaterial \"diffuse\"\n\
+                Shape \"polygon\" \"point3 P\" [-9 -2 -9  -9 -2 9  9 -2 9  9 -2 -9]\n";
+    let place = Place::new()
+        .with("sky.pbrt", &format!("{head}LightSource \"infinite\" \"rgb L\" [3 3 3]\n"))
+        .with("near.pbrt", &format!("{head}LightSource \"point\" \"point3 from\" [0 -2 0]\n"));
+    let words = "--width 32 --height 32 --spp 1 --pixel 16,16";
+    let ran = place.done(&format!("trace sky.pbrt {words}"));
+    let line =
+        "given up 0.5 of the pixel: at most 1.5 of light, as nothing in the scene is brighter than 3\n";
+    assert!(ran.stdout.contains(line), "{}", ran.stdout);
+    let json = place.done(&format!("trace sky.pbrt {words} --json")).json();
+    assert_eq!(
+        (&json["brightest"], &json["missing"][0], &json["no_bound"]),
+        (&3.0.into(), &1.5.into(), &Value::Null)
+    );
+    let ran = place.done(&format!("trace near.pbrt {words}"));
+    assert!(ran.stdout.contains("no bound: light \"point 0\" grows without limit near it"), "{}", ran.stdout);
+    let json = place.done(&format!("trace near.pbrt {words} --json")).json();
+    assert!(json["missing"].is_null() && json["no_bound"].is_string(), "{json}");
+    let ran = place.done(&format!("explain near.pbrt {words}"));
+    assert!(ran.stdout.contains("has no bound: light \"point 0\""), "{}", ran.stdout);
+    let json = place.done(&format!("explain sky.pbrt {words} --json")).json();
+    assert_eq!(json["missing"][0], 1.5);
+}
+
+#[test]
 fn the_tree_names_what_it_meets() {
     let ran = Place::new().done("trace --width 64 --height 36 --spp 1 --pixel 37,20");
     for word in [
@@ -120,6 +218,7 @@ fn pixels_and_samples_outside_are_wrong_usage() {
         ("--find dullest", "firefly, nan, deepest, costliest"),
         ("--pixel 3,3 --diff --max-deep", "--max-depth"),
         ("--pixel 3,3 --diff '", "quotation mark"),
+        ("--pixel 3,3 --diff=", "there is nothing in it"),
         ("", "--pixel"),
     ] {
         let ran = place.run(&format!("trace --width 64 --height 36 --spp 2 {words}"));

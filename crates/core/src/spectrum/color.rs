@@ -31,8 +31,18 @@ impl Color {
     /// Luminance of the linear components (Rec. 709 weights).
     pub fn luminance(self) -> f32 {
         let [r, g, b] = self.rgb;
-        0.2126 * r + 0.7152 * g + 0.0722 * b
+        let [to_r, to_g, to_b] = LUMINANCE.map(|weight| weight as f32);
+        to_r * r + to_g * g + to_b * b
     }
+}
+
+/// What red, green and blue of Rec. 709 count in luminance.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Luminance of linear Rec. 709 components in double precision; infinite or NaN if one of them is.
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    let [to_r, to_g, to_b] = LUMINANCE;
+    to_r * r + to_g * g + to_b * b
 }
 
 impl Add for Color {
@@ -51,5 +61,21 @@ impl Mul<f32> for Color {
     type Output = Self;
     fn mul(self, s: f32) -> Self {
         self.map(|v| v * s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_precisions_have_the_weights_of_rec_709() {
+        for (i, weight) in [0.2126f32, 0.7152, 0.0722].into_iter().enumerate() {
+            let mut rgb = [0.0; 3];
+            rgb[i] = 1.0;
+            assert_eq!(Color { rgb }.luminance().to_bits(), weight.to_bits());
+            assert!((luminance(rgb.map(f64::from)) - f64::from(weight)).abs() < 1e-8);
+        }
+        assert_eq!((Color::WHITE.luminance(), luminance([1.0; 3])), (1.0, 1.0));
     }
 }

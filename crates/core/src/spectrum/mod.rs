@@ -9,7 +9,7 @@ mod observer;
 mod sampled;
 
 pub use basis::Basis;
-pub use color::Color;
+pub use color::{Color, luminance};
 pub use lanes::Spectrum;
 pub use named::{Named, named, spectrum_names};
 pub use sampled::{HELIUM_D, Sampled, blackbody};

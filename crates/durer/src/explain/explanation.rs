@@ -31,8 +31,11 @@ pub struct Explanation {
     pub sources: Vec<Part>,
     /// What samples have in common, and do not; `None` if one is explained.
     pub spread: Option<Spread>,
-    /// At most so much of linear RGB is missing because rays were given up, if nothing is brighter than what was seen.
-    pub missing: [f64; 3],
+    /// At most so much of linear RGB is missing because rays were given up: their shares times the largest radiance in the
+    /// scene. `None` if there is no bound.
+    pub missing: Option<[f64; 3]>,
+    /// Why there is no bound; `None` if there is one.
+    pub no_bound: Option<String>,
     /// The text.
     pub paragraphs: Vec<Paragraph>,
     /// What is wrong. Empty unless the renderer or the scene has a fault.

@@ -15,7 +15,7 @@ pub use check::{Finding, Law, check};
 pub use explanation::{Explanation, Paragraph, SampleFinding, Spread, VERSION};
 pub use part::{Part, PartKind};
 
-use crate::{drive::Taken, probe::RayTree, tree::Subject};
+use crate::{Gather, drive::Taken, probe::RayTree, tree::Subject};
 
 use part::Parts;
 
@@ -43,13 +43,36 @@ impl Sample {
 
 /// Explains the mean of a pixel, or one of its `samples`, all of which are `taken`.
 pub fn explain(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: Option<u32>) -> Explanation {
-    let samples = record(subject, pixel, taken, sample);
-    let numbers: Vec<u32> = samples.iter().map(|s| s.number).collect();
+    let chosen: Vec<&Taken> = match sample {
+        Some(sample) => taken.get(sample as usize).into_iter().collect(),
+        None => taken.iter().collect(),
+    };
+    let samples = record(subject, pixel, &chosen);
     let rgb = match (sample, samples.first()) {
         (Some(_), Some(one)) => one.rgb,
         _ => subject.mean(pixel, taken).map(f64::from),
     };
-    let detailed = representative(&samples);
+    explained(subject, pixel, taken.len() as u32, (&samples, rgb))
+}
+
+/// Explains one sample of a pixel, and takes no other.
+pub fn explain_one(subject: &Subject<'_>, pixel: [u32; 2], sample: u32) -> Explanation {
+    let job = subject.prepared.job();
+    let taken = job.sample_of(pixel, sample, Gather::Rays);
+    let samples = record(subject, pixel, &taken.iter().collect::<Vec<_>>());
+    let rgb = samples.first().map_or([0.0; 3], |one| one.rgb);
+    explained(subject, pixel, job.sample_count(pixel), (&samples, rgb))
+}
+
+/// Explains recorded samples of a pixel that has so many.
+fn explained(
+    subject: &Subject<'_>,
+    pixel: [u32; 2],
+    count: u32,
+    (samples, rgb): (&[Sample], [f64; 3]),
+) -> Explanation {
+    let numbers: Vec<u32> = samples.iter().map(|s| s.number).collect();
+    let detailed = representative(samples);
     let total: f64 = samples.iter().filter(|s| s.is_finite()).map(|s| s.weight).sum();
     let (mut ways, mut sources) = (Parts::default(), Parts::default());
     if matches!(subject.prepared.integrator.output(), crate::Output::Radiance) && total != 0.0 {
@@ -58,30 +81,32 @@ pub fn explain(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: 
             sources.merge(&part::by_source(subject.prepared, &one.tree), one.weight / total);
         }
     }
+    let missing = survey::missing(subject.prepared, samples);
     let mut explanation = Explanation {
         version: VERSION,
         scene: subject.name.to_owned(),
         integrator: subject.prepared.integrator_name.clone(),
         pixel,
-        samples: taken.len() as u32,
+        samples: count,
         explained: numbers,
         sample: detailed.map_or(0, |s| s.number),
         rgb,
         parts: ways.sorted(),
         sources: sources.sorted(),
-        spread: (samples.len() > 1).then(|| survey::spread(&samples)),
-        missing: survey::missing(&samples),
+        spread: (samples.len() > 1).then(|| survey::spread(samples)),
+        missing: missing.as_ref().ok().copied(),
+        no_bound: missing.err(),
         paragraphs: Vec::new(),
-        findings: findings(subject, &samples),
+        findings: findings(subject, samples),
     };
     if let Some(detailed) = detailed {
-        explanation.paragraphs = story::tell(subject, &samples, detailed, &explanation);
+        explanation.paragraphs = story::tell(subject, samples, detailed, &explanation);
     }
     explanation
 }
 
-/// Records the sample that is asked for; else all, or so many, evenly chosen, as the budget allows.
-fn record(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: Option<u32>) -> Vec<Sample> {
+/// Records the samples, or so many of them, evenly chosen, as the budget allows.
+fn record(subject: &Subject<'_>, pixel: [u32; 2], taken: &[&Taken]) -> Vec<Sample> {
     let job = subject.prepared.job();
     let one = |taken: &Taken| {
         let (tree, rgb) = job.record(pixel, taken.sample);
@@ -93,12 +118,9 @@ fn record(subject: &Subject<'_>, pixel: [u32; 2], taken: &[Taken], sample: Optio
             tree,
         }
     };
-    if let Some(sample) = sample {
-        return taken.get(sample as usize).map(one).into_iter().collect();
-    }
-    let Some(first) = taken.first().map(one) else { return Vec::new() };
+    let Some(first) = taken.first().copied().map(one) else { return Vec::new() };
     let most = (MOST_RAYS / first.tree.nodes.len().max(1)).clamp(1, MOST_SAMPLES).min(taken.len());
-    let others = (1..most).map(|i| one(&taken[i * taken.len() / most]));
+    let others = (1..most).map(|i| one(taken[i * taken.len() / most]));
     std::iter::once(first).chain(others.collect::<Vec<_>>()).collect()
 }
 

@@ -34,13 +34,20 @@ pub(super) fn brightest(samples: &[Sample]) -> f64 {
 }
 
 /// What is missing at most, of the mean of the samples.
-pub(super) fn missing(samples: &[Sample]) -> [f64; 3] {
-    let (most, count) = (brightest(samples), samples.len().max(1) as f64);
-    samples.iter().fold([0.0; 3], |mut sum, sample| {
+///
+/// # Errors
+/// Why there is no bound.
+pub(super) fn missing(prepared: &Prepared, samples: &[Sample]) -> Result<[f64; 3], String> {
+    let share = samples.iter().fold([0.0; 3], |mut sum, sample| {
         let cut = cut_share(&sample.tree);
-        (0..3).for_each(|i| sum[i] += cut[i] * most / count);
+        (0..3).for_each(|i| sum[i] += cut[i] / samples.len().max(1) as f64);
         sum
-    })
+    });
+    if share == [0.0; 3] {
+        return Ok(share);
+    }
+    let most = f64::from(prepared.brightest()?);
+    Ok(share.map(|share| share * most))
 }
 
 pub(super) fn spread(samples: &[Sample]) -> Spread {

@@ -1,4 +1,5 @@
 //! Numbers in sentences: three significant digits everywhere.
+pub(super) use crate::spectrum::luminance;
 use crate::spectrum::{Basis, Spectrum};
 
 /// Three significant digits, trailing zeros dropped; powers of ten where the number is very small or large.
@@ -37,11 +38,6 @@ pub(super) fn light(s: Spectrum) -> String {
 /// Linear RGB in double precision.
 pub(super) fn rgb(s: Spectrum) -> [f64; 3] {
     Basis::Rgb.to_rgb(s).map(f64::from)
-}
-
-/// How bright it is: the weights of sRGB's primaries.
-pub(super) fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 /// `12 %`; a decimal where there are few.

@@ -2,11 +2,11 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::{
-    Prepared, View,
+    Output, Prepared, View,
     drive::{Antialias, Gather, Taken},
     film::{BLOCK, Film, Pixel, Tile},
     math::Point3,
-    probe::{Detail, TreeHit, TreeNode},
+    probe::{Detail, RayTree, TreeHit, TreeNode},
     spectrum::{Basis, Spectrum},
 };
 
@@ -40,14 +40,15 @@ pub enum Surroundings {
 }
 
 impl Subject<'_> {
-    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them.
+    /// The trees of some samples of a pixel in as much `detail`, and what belongs to them. Other samples than the one are
+    /// taken only if there are several, or if their trees are wanted too: else the page has no values of samples.
     pub fn page(&self, pixel: [u32; 2], chosen: &[u32], around: Surroundings, detail: Detail) -> Page {
-        let samples = self.samples(pixel);
-        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree(pixel, &samples, s, detail)).collect();
+        let count = self.prepared.job().sample_count(pixel);
+        let mut trees: Vec<Tree> = chosen.iter().map(|&s| self.tree_of(pixel, count, s, detail)).collect();
         if let Surroundings::SceneAndSamples(most) = around {
             let mut nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
-            for sample in (0..samples.len() as u32).filter(|s| !chosen.contains(s)) {
-                let tree = self.tree(pixel, &samples, sample, Detail::default());
+            for sample in (0..count).filter(|s| !chosen.contains(s)) {
+                let tree = self.tree_of(pixel, count, sample, Detail::default());
                 nodes += tree.nodes.len();
                 if nodes > most {
                     break;
@@ -56,23 +57,30 @@ impl Subject<'_> {
             }
         }
         let with_scene = around != Surroundings::None;
-        Page {
+        let mut page = Page {
             version: VERSION,
             trees,
-            other: None,
-            values: samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect(),
-            dims: samples
-                .iter()
-                .map(|s| Dimensions {
-                    film: s.film.map(Number),
-                    lens: s.lens.map(|l| l.map(Number)),
-                    time: Number(s.time),
-                })
-                .collect(),
-            mean: rgb(self.mean(pixel, &samples)),
             picture: with_scene.then(|| Thumbnail::new(self.prepared)),
             scene: with_scene.then(|| GhostScene::new(self.name, self.prepared)),
+            ..Page::default()
+        };
+        if chosen.len() != 1 || matches!(around, Surroundings::SceneAndSamples(_)) {
+            self.add_samples(&mut page, pixel);
         }
+        page
+    }
+
+    /// Takes all samples of the pixel and adds to the page what they say.
+    pub fn add_samples(&self, page: &mut Page, pixel: [u32; 2]) {
+        let samples = self.samples(pixel);
+        page.values = samples.iter().map(|s| rgb(s.rgb.unwrap_or_default())).collect();
+        let dims = |s: &Taken| Dimensions {
+            film: s.film.map(Number),
+            lens: s.lens.map(|l| l.map(Number)),
+            time: Number(s.time),
+        };
+        page.dims = samples.iter().map(dims).collect();
+        page.mean = rgb(self.mean(pixel, &samples));
     }
 
     /// What the picture holds of a pixel, bit for bit; `samples` are all of it.
@@ -100,12 +108,22 @@ impl Subject<'_> {
 
     /// The document of one sample; `samples` are all of the pixel.
     pub fn tree(&self, pixel: [u32; 2], samples: &[Taken], sample: u32, detail: Detail) -> Tree {
+        self.tree_of(pixel, samples.len() as u32, sample, detail)
+    }
+
+    /// The document of one of so many samples of a pixel; no other is taken.
+    pub fn tree_of(&self, pixel: [u32; 2], samples: u32, sample: u32, detail: Detail) -> Tree {
         let (recorded, value) = self.prepared.job().record_in(pixel, sample, detail);
-        let taken = samples.get(sample as usize);
-        let view = &self.prepared.scene.view;
+        let (view, settings) = (&self.prepared.scene.view, &self.prepared.settings);
+        let data = match self.prepared.integrator.output() {
+            Output::Data(show) => Some(show.word().to_owned()),
+            Output::Radiance => None,
+        };
+        let is_adaptive = settings.antialias != Antialias::Supersample;
         let nodes: Vec<Node> =
             recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, id, n)).collect();
-        Tree {
+        let eye = recorded.eye.as_ref();
+        let mut tree = Tree {
             version: VERSION,
             durer: env!("CARGO_PKG_VERSION").to_owned(),
             scene: self.name.to_owned(),
@@ -114,23 +132,36 @@ impl Subject<'_> {
             height: view.height,
             pixel,
             sample,
-            samples: samples.len() as u32,
-            antialias: match self.prepared.settings.antialias {
-                Antialias::Supersample => "supersample",
-                Antialias::Adaptive(_) => "adaptive",
-            }
-            .to_owned(),
-            filter_weight: taken.and_then(|t| t.weight).map(Number),
-            film: taken.map(|t| t.film.map(Number)).unwrap_or_default(),
-            lens: taken.and_then(|t| t.lens).map(|l| l.map(Number)),
-            time: taken.map(|t| Number(t.time)).unwrap_or_default(),
+            samples,
+            antialias: if is_adaptive { "adaptive" } else { "supersample" }.to_owned(),
+            filter_weight: eye
+                .filter(|_| !is_adaptive || data.is_some())
+                .map(|eye| Number(eye.filter_weight)),
+            film: eye.map(|eye| eye.film.map(Number)).unwrap_or_default(),
+            lens: eye.and_then(|eye| eye.lens).map(|l| l.map(Number)),
+            time: eye.map(|eye| Number(eye.time)).unwrap_or_default(),
             rules: self.prepared.rules.clone(),
             rgb: rgb(as_film(value)),
             killed: of(recorded.killed()),
             max_radiance: Number(recorded.max_radiance()),
             bad: recorded.bad,
+            data,
             nodes,
-            diff: None,
+            ..Tree::default()
+        };
+        self.bound(&recorded, &mut tree);
+        tree
+    }
+
+    /// What rays that were given up could have brought.
+    fn bound(&self, recorded: &RayTree, tree: &mut Tree) {
+        match recorded.is_cut().then(|| self.prepared.brightest()) {
+            None => tree.missing = Some(of(recorded.lost_bound(0.0))),
+            Some(Ok(brightest)) => {
+                tree.brightest = Some(Number(brightest));
+                tree.missing = Some(of(recorded.lost_bound(brightest)));
+            }
+            Some(Err(why)) => tree.no_bound = Some(why.to_owned()),
         }
     }
 }

@@ -8,6 +8,7 @@ use super::{
     document::{Node, Tree},
     number::{Number, Rgb, plain},
 };
+use crate::spectrum::luminance;
 
 /// What differs between a tree and another of the same sample.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -22,7 +23,8 @@ pub struct Comparison {
     pub before: Rgb,
     /// The value of the other tree.
     pub after: Rgb,
-    /// What the other has of the luminance of this one, less 1: -0.14 if 14 % are gone. Null if this one is black.
+    /// What the other has of the luminance of this one, less 1: -0.14 if 14 % are gone. Null if this one is black,
+    /// and if one of them is no light.
     pub relative: Option<Number>,
     /// Ids in this tree of rays that the other does not trace, with all below them.
     pub removed: Vec<u32>,
@@ -54,12 +56,19 @@ impl Comparison {
             options: options.to_owned(),
             before: tree.rgb,
             after: other.rgb,
-            relative: relative(plain(tree.rgb), plain(other.rgb)).map(Number),
+            relative: relative(tree, other).map(Number),
             ..Self::default()
         };
         found.align(tree, other);
         found.summary = found.sentence(tree, other, whole);
         found
+    }
+
+    /// What it says of the whole, without a word about single rays.
+    pub(super) fn without_lists(&self) -> Self {
+        let (options, summary) = (self.options.clone(), self.summary.clone());
+        let Self { before, after, relative, .. } = *self;
+        Self { options, summary, before, after, relative, ..Self::default() }
     }
 
     fn align(&mut self, tree: &Tree, other: &Tree) {
@@ -109,11 +118,18 @@ impl Comparison {
 
     fn sentence(&self, tree: &Tree, other: &Tree, whole: &str) -> String {
         let what = named(&self.options);
+        let no_light = no_light(tree, other);
         let effect = match self.relative.map(|r| r.0) {
+            _ if tree.data != other.data => {
+                format!("{what} shows something else of {whole} ({})", no_light.unwrap_or_default())
+            }
             _ if self.before == self.after => format!("{what} changes nothing of {whole}"),
             Some(r) if r < 0.0 => format!("{what} removes {} of {whole}", percent(-r)),
             Some(r) if r > 0.0 => format!("{what} adds {} to {whole}", percent(r)),
             Some(_) => format!("{what} changes the colour of {whole}, not its luminance"),
+            None if no_light.is_some() => {
+                format!("{what} changes {whole} ({})", no_light.unwrap_or_default())
+            }
             None if plain(self.before).iter().all(|v| *v == 0.0) => {
                 format!("{what} brings light to {whole}, which was black")
             }
@@ -159,11 +175,23 @@ fn differences(a: &Node, b: &Node) -> Vec<String> {
 }
 
 /// By how much the luminance differs; `None` if that says nothing.
-fn relative(before: [f32; 3], after: [f32; 3]) -> Option<f32> {
-    let luminance =
-        |[r, g, b]: [f32; 3]| 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
-    let (before, after) = (luminance(before), luminance(after));
+fn relative(before: &Tree, after: &Tree) -> Option<f32> {
+    if before.data.is_some() || after.data.is_some() {
+        return None;
+    }
+    let [before, after] = [before, after].map(|tree| luminance(plain(tree.rgb).map(f64::from)));
     (before != 0.0 && before.is_finite() && after.is_finite()).then(|| ((after - before) / before) as f32)
+}
+
+/// Why what two trees say cannot be compared as light; `None` if it can.
+fn no_light(before: &Tree, after: &Tree) -> Option<String> {
+    match (&before.data, &after.data) {
+        (None, None) => None,
+        (Some(data), None) => Some(format!("the one is {data}, the other light")),
+        (None, Some(data)) => Some(format!("the one is light, the other {data}")),
+        (Some(data), Some(other)) if data == other => Some(format!("it is {data}, not light")),
+        (Some(data), Some(other)) => Some(format!("the one is {data}, the other {other}")),
+    }
 }
 
 fn percent(share: f32) -> String {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     compare::Comparison,
+    cut::LeftOut,
     number::{Direction, Metres, Number, Place, Rgb},
 };
 
@@ -53,9 +54,18 @@ pub struct Tree {
     pub rgb: Rgb,
     /// Sum of `lost` of all nodes: the share of the pixel that rays which were not traced would have had.
     pub killed: Rgb,
-    /// The largest radiance in the tree, over nodes and channels. `killed` times this bounds what was cut off, if nothing
-    /// in the scene is brighter than what was seen.
+    /// The largest radiance in the tree, over nodes and channels.
     pub max_radiance: Number,
+    /// The largest radiance that any ray of the scene can bring, over channels and in the mean over random choices. Null
+    /// if no ray was given up that it concerns, or if there is no bound.
+    pub brightest: Option<Number>,
+    /// So much of `rgb` at most is missing because rays were not traced: `lost` times `brightest`, or times what the
+    /// light of a shadow ray sends, of all nodes. Null if there is no bound.
+    pub missing: Option<Rgb>,
+    /// Why there is no bound on what is missing; null if there is one.
+    pub no_bound: Option<String>,
+    /// What the numbers of a data picture are: `depth`, `normal`, `uv`, `id` or `cost`. Null if `rgb` is light.
+    pub data: Option<String>,
     /// The node that an infinite or NaN value comes from; null if there is none.
     pub bad: Option<u32>,
     /// The rays, parents before children, in the order they were announced; ids are indices.
@@ -63,6 +73,9 @@ pub struct Tree {
     /// Against the same sample under other settings (`--diff`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diff: Option<Comparison>,
+    /// In the page only: the rays of the tree that there was no room for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
 }
 
 /// One ray.
@@ -160,6 +173,12 @@ pub struct Node {
     /// Boxes in the order they were tested, if that was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub walk: Vec<TestedBox>,
+    /// In the page only, where the tree was cut: its id in the whole one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole_id: Option<u32>,
+    /// In the page only: what of the rays below it there was no room for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
 }
 
 /// What a ray was compared with when it was given up.

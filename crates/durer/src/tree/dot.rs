@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use super::{
     document::{Node, Tree},
-    look::{Look, met, triple},
+    look::{Look, Wording, met, triple},
 };
 
 /// A `digraph`, a ray per node, for `dot -Tsvg`.
@@ -45,7 +45,7 @@ pub fn dot(trees: &[Tree]) -> String {
 
 fn label(node: &Node) -> String {
     let stop = node.stop.as_ref().map(|s| format!("\n[{s}]")).unwrap_or_default();
-    format!("{} {}\nadds {}{stop}", node.id, met(node), triple(node.contribution))
+    format!("{} {}\nadds {}{stop}", node.id, met(node, Wording::Short), triple(node.contribution))
 }
 
 /// A quoted string of the language: what looks like a command in it is none.

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 use crate::{
     Prepared, Progress,
     drive::{Gather, Taken},
+    spectrum::luminance,
 };
 
 /// What is looked for.
@@ -78,7 +79,7 @@ impl Find {
         let (mut sum, mut count, mut bad) = (0.0, 0, 0);
         let mut best: Option<(u32, [f64; 2])> = None;
         for taken in samples {
-            let light = luminance(taken);
+            let light = light(taken);
             if light.is_finite() {
                 sum += light;
                 count += 1;
@@ -165,7 +166,6 @@ fn around(pixels: &[Option<Candidate>], width: usize, index: usize) -> impl Iter
 }
 
 /// Of a sample's value; 0 where data has none.
-fn luminance(taken: &Taken) -> f64 {
-    let [r, g, b] = taken.rgb.unwrap_or_default().map(f64::from);
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+fn light(taken: &Taken) -> f64 {
+    luminance(taken.rgb.unwrap_or_default().map(f64::from))
 }

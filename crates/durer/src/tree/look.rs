@@ -1,6 +1,6 @@
 //! How rays look and what they are called, the same in every drawing: the lecture's letters and colours.
 use super::{
-    document::Node,
+    document::{Light, Node},
     number::{Number, Rgb},
 };
 
@@ -32,29 +32,58 @@ impl Look {
     }
 }
 
-/// What became of a ray, in few words.
-pub fn met(node: &Node) -> String {
+/// How much is said of a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wording {
+    /// What it met.
+    Short,
+    /// And from which side, how far away, and how much light was kept back.
+    Full,
+}
+
+/// What became of a ray, in words.
+pub fn met(node: &Node, wording: Wording) -> String {
     let kind = &node.kind;
     if node.is_untraced() {
         return format!("{kind} not traced");
     }
+    let full = |text: String| if wording == Wording::Full { text } else { String::new() };
+    let metres = || node.t.map_or_else(|| "?".to_owned(), |t| format!("{} m", short(t)));
     if let Some(light) = &node.light {
-        let name = light.name.clone().unwrap_or_else(|| format!("light {}", light.index));
+        let name = light.words();
         return match (&node.blocker, light.visible) {
+            (_, true) if light.point.is_some() => {
+                format!("{kind} to {name}{}", full(format!(" at {}", metres())))
+            }
             (_, true) => format!("{kind} to {name}"),
-            (Some(blocker), false) => format!("{kind} to {name}, blocked by {blocker}"),
+            (Some(blocker), false) => {
+                let lacks = std::array::from_fn(|i| Number(node.throughput[i].0 * light.unoccluded[i].0));
+                let lacks = full(format!(", would have added {}", triple(lacks)));
+                format!("{kind} to {name}, blocked by {blocker}{lacks}")
+            }
             (None, false) => format!("{kind} to {name}, blocked"),
         };
     }
     match &node.object {
-        Some(object) => format!("{kind} hits {object}"),
+        Some(object) => {
+            let side = node.side.as_deref().unwrap_or("?");
+            format!("{kind} hits {object}{}", full(format!(" ({side}) at {}", metres())))
+        }
         None => format!("{kind} leaves the scene"),
+    }
+}
+
+impl Light {
+    /// What it is called: its name, or its number.
+    pub fn words(&self) -> String {
+        self.name.clone().unwrap_or_else(|| format!("light {}", self.index))
     }
 }
 
 /// A number for people: four significant digits.
 pub fn short(v: Number) -> String {
     if !v.0.is_finite() {
+        // Which of them it was is lost where a document is read: all are null there.
         return "not finite".to_owned();
     }
     let rounded: f64 = format!("{:.3e}", v.0).parse().unwrap_or_default();

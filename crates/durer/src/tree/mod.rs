@@ -4,6 +4,7 @@
 //! graph, a drawing, a table, a scene. `docs/ray-tree.md` describes the keys; a test keeps it and the schema beside it true.
 mod capture;
 mod compare;
+mod cut;
 mod document;
 mod dot;
 mod find;
@@ -15,6 +16,7 @@ mod material;
 mod number;
 mod page;
 mod picture;
+mod room;
 #[cfg(test)]
 mod schema;
 mod svg;
@@ -22,6 +24,7 @@ mod table;
 
 pub use capture::{Subject, Surroundings};
 pub use compare::{Change, Comparison};
+pub use cut::LeftOut;
 pub use document::{
     Body, Drawn, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,
 };
@@ -30,7 +33,7 @@ pub use find::{Find, Found};
 pub use format::{FORMATS, Format};
 pub use ghost::GhostScene;
 pub use glb::{TooLarge, glb};
-pub use look::{Look, met, short, triple};
+pub use look::{Look, Wording, met, short, triple};
 pub use number::{Direction, Metres, Number, Place, Rgb, plain, rgb};
 pub use page::{Dimensions, Other, Page};
 pub use picture::Thumbnail;

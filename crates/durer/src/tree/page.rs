@@ -1,8 +1,5 @@
 //! What the page of a ray tree holds: the trees of a pixel, all its values, the scene around them.
-use base64::{Engine, engine::general_purpose::STANDARD};
-use flate2::{Compression, write::GzEncoder};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use super::{
     compare::Comparison,
@@ -10,6 +7,7 @@ use super::{
     ghost::GhostScene,
     number::{Number, Rgb},
     picture::Thumbnail,
+    room::{self, Lean, lean},
 };
 
 /// All of it.
@@ -35,6 +33,9 @@ pub struct Page {
     /// The scene's geometry, coarse.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scene: Option<GhostScene>,
+    /// In the page only: what there was no room for, beside the rays that trees tell of; in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
 }
 
 /// The same samples under other settings.
@@ -66,6 +67,8 @@ pub struct Dimensions {
 impl Page {
     /// Bytes of packed data that leave room for the page's program below 2 MB.
     pub const ROOM: usize = 1_150_000;
+    /// Most rays that the page holds of the samples; of the same under other settings as many.
+    pub const RAYS: usize = 10_000;
 
     /// The document with all keys: the tree, or all of this if it holds several, without the scene.
     ///
@@ -84,115 +87,16 @@ impl Page {
     /// # Errors
     /// None that data of ours leads to; those of the JSON writer.
     pub fn compact(&self) -> serde_json::Result<String> {
-        serde_json::to_string(&self.lean(Lean::Nothing)?)
-    }
-
-    fn lean(&self, lean: Lean) -> serde_json::Result<Value> {
-        let mut value: Value = serde_json::from_str(&serde_json::to_string(self)?)?;
-        let own = value.get_mut("trees").and_then(Value::as_array_mut);
-        own.into_iter().flatten().skip(lean.whole()).for_each(lighten);
-        let other = value.pointer_mut("/other/trees").and_then(Value::as_array_mut);
-        other.into_iter().flatten().skip(lean.whole()).for_each(lighten);
-        drop_nothing(&mut value);
-        Ok(value)
+        serde_json::to_string(&lean(self, Lean::Nothing)?)
     }
 
     /// The page's data as the HTML file holds it: compact JSON, packed by gzip, in base64. If that is more than `most`
-    /// bytes, trees lose details: first those of other samples, then all, then there are fewer of other samples.
+    /// bytes, trees lose details: first those of other samples, then all; then rays that add little to the pixel. Of
+    /// more than [`Page::RAYS`] rays those go at once.
     ///
     /// # Errors
     /// None that data of ours leads to; those of the JSON writer and of packing.
     pub fn packed(&self, most: usize) -> serde_json::Result<Vec<u8>> {
-        for lean in [Lean::Nothing, Lean::Others, Lean::All] {
-            let packed = pack(&self.lean(lean)?)?;
-            if packed.len() <= most {
-                return Ok(packed);
-            }
-        }
-        let mut fewer = self.clone();
-        loop {
-            let kept = fewer.trees.len().div_ceil(2);
-            fewer.trees.truncate(kept);
-            let packed = pack(&fewer.lean(Lean::All)?)?;
-            if packed.len() <= most || kept <= 1 {
-                return Ok(packed);
-            }
-        }
-    }
-}
-
-/// Which trees lose details.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Lean {
-    Nothing,
-    /// All but the first.
-    Others,
-    All,
-}
-
-impl Lean {
-    /// How many trees are left whole.
-    fn whole(self) -> usize {
-        match self {
-            Self::Nothing => usize::MAX,
-            Self::Others => 1,
-            Self::All => 0,
-        }
-    }
-}
-
-fn pack(value: &Value) -> serde_json::Result<Vec<u8>> {
-    let mut packer = GzEncoder::new(Vec::new(), Compression::best());
-    serde_json::to_writer(&mut packer, value)?;
-    let packed = packer.finish().map_err(serde_json::Error::io)?;
-    Ok(STANDARD.encode(packed).into_bytes())
-}
-
-/// Details that a tree can do without.
-const DETAILS: [&str; 8] = ["walk", "sampler", "triangle", "barycentric", "ns", "uv", "ambient", "emission"];
-/// The same of lists, which become empty.
-const LISTS: [&str; 3] = ["random", "textures", "lobes"];
-/// Significant digits of numbers of such a tree.
-const DIGITS: usize = 6;
-
-/// Takes details and digits from a tree.
-fn lighten(tree: &mut Value) {
-    let nodes = tree.get_mut("nodes").and_then(Value::as_array_mut);
-    for node in nodes.into_iter().flatten() {
-        if let Some(keys) = node.as_object_mut() {
-            keys.retain(|key, _| !DETAILS.contains(&key.as_str()));
-            for key in LISTS {
-                keys.insert(key.to_owned(), Value::Array(Vec::new()));
-            }
-            if keys.get("normal") == keys.get("geometric_normal") {
-                keys.remove("geometric_normal");
-            }
-        }
-        round(node);
-    }
-}
-
-fn round(value: &mut Value) {
-    match value {
-        Value::Object(keys) => keys.values_mut().for_each(round),
-        Value::Array(list) => list.iter_mut().for_each(round),
-        Value::Number(number) if number.is_f64() => {
-            let rounded = number.as_f64().map(|v| format!("{v:.*e}", DIGITS - 1));
-            let rounded = rounded.and_then(|v| v.parse().ok()).and_then(serde_json::Number::from_f64);
-            *number = rounded.unwrap_or_else(|| number.clone());
-        }
-        _ => {}
-    }
-}
-
-/// Takes out what says nothing, at any depth; lists keep their length.
-fn drop_nothing(value: &mut Value) {
-    match value {
-        Value::Object(keys) => {
-            keys.values_mut().for_each(drop_nothing);
-            keys.retain(|_, v| !v.is_null());
-        }
-        Value::Array(list) => list.iter_mut().for_each(drop_nothing),
-        _ => {}
+        room::packed(self, most)
     }
 }

@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use super::{
     document::{Node, Tree},
-    look::{Look, met, short, triple},
+    look::{Look, Wording, met, short, triple},
     number::{Number, Rgb},
 };
 
@@ -96,7 +96,11 @@ fn item(node: &Node) -> String {
     let weight =
         if node.parent.is_some() { format!(", weight {}", triple(node.weight)) } else { String::new() };
     let letter = Look::of(&node.kind).letter;
-    format!("**{letter}** {}{t}{weight}, adds {}{stop}", plain(&met(node)), triple(node.contribution))
+    format!(
+        "**{letter}** {}{t}{weight}, adds {}{stop}",
+        plain(&met(node, Wording::Short)),
+        triple(node.contribution)
+    )
 }
 
 /// Without what Markdown would take for its own.

@@ -23,8 +23,6 @@ use super::{Branch, BranchKind, Drawn, GlossyView, ggx, lobe::mirrored, schlick_
 pub const SMOOTH: f32 = 1e-3;
 /// Up to this `alpha` the mirror branch carries everything.
 const SHARP: f32 = 0.02;
-/// From this `alpha` on the mirror branch carries nothing.
-const BLURRED: f32 = 0.2;
 /// Cosines are taken to be at least this: `f` stays finite at grazing incidence.
 const MIN_COSINE: f32 = 1e-6;
 
@@ -42,6 +40,9 @@ pub struct Glossy {
 }
 
 impl Glossy {
+    /// From this `alpha` on the mirror branch carries nothing.
+    pub const BLURRED: f32 = 0.2;
+
     /// Value without the cosine, 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         let h = wo + wi;
@@ -121,7 +122,7 @@ impl Glossy {
     }
     /// Share of the lobe that the mirror branch carries.
     pub(super) fn mirror_share(&self) -> f32 {
-        let t = ((BLURRED - self.alpha) / (BLURRED - SHARP)).clamp(0.0, 1.0);
+        let t = ((Self::BLURRED - self.alpha) / (Self::BLURRED - SHARP)).clamp(0.0, 1.0);
         sqr(t) * (3.0 - 2.0 * t)
     }
     pub(super) fn branch_weight(&self, wo: Vector3) -> Spectrum {

@@ -5,7 +5,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Light, Track};
+use super::{Light, LightBound, Track, largest};
 
 /// An ambient light.
 #[derive(Debug)]
@@ -45,6 +45,9 @@ impl Light for Ambient {
     }
     fn is_sampled(&self) -> bool {
         false
+    }
+    fn bound(&self) -> LightBound {
+        LightBound { ambient: largest(self.radiance), ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {
         basis.emission(self.radiance)

@@ -8,7 +8,7 @@ use durer_core::{
     spectrum::Color,
 };
 
-use super::{Cone, Light, LightBounds, LightCx, LightSample, Track, falloff::Falloff};
+use super::{Cone, Light, LightBound, LightBounds, LightCx, LightSample, Track, falloff::Falloff, largest};
 
 /// How the intensity of a light depends on the direction, in the light's own space.
 pub(super) trait Pattern: Debug + Send + Sync {
@@ -16,6 +16,8 @@ pub(super) trait Pattern: Debug + Send + Sync {
     fn intensity(&self, d: Vector3) -> Color;
     /// A cone outside of which it is black.
     fn cone(&self) -> Cone;
+    /// The largest component that it has in any direction.
+    fn largest(&self) -> f32;
     /// Luminance of its integral over all directions.
     fn integral(&self) -> f32;
 }
@@ -77,6 +79,15 @@ impl<P: Pattern> Light for Beam<P> {
         let d = Vector3::from_f64((own * -wi.to_f64()).normalize());
         let weight = cx.basis.emission(self.pattern.intensity(d) * self.factor) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+    }
+    /// Of one that moves there is no bound, as it may pass near anything.
+    fn bound(&self) -> LightBound {
+        let intensity = self.pattern.largest() * largest(self.factor);
+        let (facing, fades_from) = match self.still {
+            Some((position, _)) => (intensity, Some(position)),
+            None => (if intensity > 0.0 { f32::INFINITY } else { 0.0 }, None),
+        };
+        LightBound { facing, fades_from, ..LightBound::default() }
     }
     fn bounds(&self) -> Option<LightBounds> {
         let normals = self.cone();

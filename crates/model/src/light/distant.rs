@@ -8,7 +8,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightCx, LightSample, Track, axis, scaled, track::Anchor};
+use super::{Light, LightBound, LightCx, LightSample, Track, axis, largest, scaled, track::Anchor};
 
 /// A distant light.
 #[derive(Debug)]
@@ -63,6 +63,9 @@ impl Light for Distant {
         let weight = cx.basis.emission(self.irradiance);
         let (_, direction) = self.anchor.at(cx.time);
         (!weight.is_black()).then_some(LightSample { wi: -direction, point: None, weight, pdf: None })
+    }
+    fn bound(&self) -> LightBound {
+        LightBound { facing: largest(self.irradiance), ..LightBound::default() }
     }
     fn reach(&self, _p: Point3, n: Option<Normal3>, time: f32) -> f32 {
         let (_, direction) = self.anchor.at(time);

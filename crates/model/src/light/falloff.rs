@@ -1,8 +1,13 @@
 //! How a light without extent fades with distance.
 use std::f32::consts::PI;
 
-use durer_core::math::{Normal3, Point3, Vector3};
+use durer_core::{
+    math::{Normal3, Point3, Vector3},
+    spectrum::Color,
+};
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
+
+use super::{LightBound, largest, track::Anchor};
 
 /// Fading with distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,5 +48,16 @@ impl Falloff {
     pub(super) fn reach(self, light: Point3, p: Point3, n: Option<Normal3>) -> f32 {
         let cos = |wi: Vector3| n.map_or(1.0, |n| n.dot(wi).max(0.0));
         self.towards(light, p).map_or(0.0, |(wi, irradiance)| irradiance * cos(wi))
+    }
+    /// The most that a light of this intensity at `anchor` can send. Of one that moves and fades there is no bound.
+    pub(super) fn bound(self, anchor: &Anchor, intensity: Color) -> LightBound {
+        let intensity = largest(intensity);
+        let (facing, fades_from) = match (self, anchor.still()) {
+            (Self::None, _) => (PI * intensity, None),
+            (Self::InverseSquare, Some(place)) => (intensity, Some(place)),
+            (Self::InverseSquare, None) if intensity > 0.0 => (f32::INFINITY, None),
+            (Self::InverseSquare, None) => (0.0, None),
+        };
+        LightBound { facing, fades_from, ..LightBound::default() }
     }
 }

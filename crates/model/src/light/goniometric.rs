@@ -47,6 +47,9 @@ impl Pattern for Globe {
     fn cone(&self) -> Cone {
         Cone::ALL
     }
+    fn largest(&self) -> f32 {
+        self.picture.largest()
+    }
     fn integral(&self) -> f32 {
         self.integral
     }

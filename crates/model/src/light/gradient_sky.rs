@@ -15,7 +15,10 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, sky_blur::SkyBlur, sky_power, steps};
+use super::{
+    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, sky_blur::SkyBlur,
+    sky_power, steps,
+};
 
 /// Belts of equal solid angle, on each of which directions are drawn evenly.
 const BELTS: usize = 128;
@@ -154,6 +157,11 @@ impl Light for GradientSky {
     }
     fn surrounds(&self) -> bool {
         true
+    }
+    /// Everything is a mixture of the three.
+    fn bound(&self) -> LightBound {
+        let most = [self.zenith, self.horizon, self.ground].map(largest).into_iter().fold(0.0, f32::max);
+        LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         let s = n.dot(self.up);

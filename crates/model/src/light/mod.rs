@@ -125,6 +125,8 @@ pub trait Light: Debug + Send + Sync {
         let _ = (basis, surface, wo);
         Spectrum::BLACK
     }
+    /// The most that it can send.
+    fn bound(&self) -> LightBound;
     /// Whether it surrounds the scene: it has an ambient term, which stands for shadow rays where no path is drawn, or is
     /// seen by rays that left.
     fn surrounds(&self) -> bool {
@@ -146,6 +148,20 @@ pub trait Light: Debug + Send + Sync {
         let _ = (basis, d);
         Spectrum::BLACK
     }
+}
+
+/// The most that a light can send, over all directions, moments and channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightBound {
+    /// Radiance that rays see which meet it or leave the scene, W/(m² sr).
+    pub seen: f32,
+    /// Its ambient term, W/(m² sr).
+    pub ambient: f32,
+    /// Of a light without extent: irradiance on a surface that faces it, W/m²; a metre from [`LightBound::fades_from`] if
+    /// there is such a place, else anywhere. Infinite if it has no bound.
+    pub facing: f32,
+    /// The point that the light fades from with the square of the distance.
+    pub fades_from: Option<Point3>,
 }
 
 /// A point of a light that a ray met.
@@ -224,6 +240,11 @@ fn uniform_direction(u: Point2) -> (Vector3, f32) {
     let r = 2.0 * (u.x * (1.0 - u.x)).sqrt();
     let azimuth = TAU * u.y;
     (Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - 2.0 * u.x), UNIFORM)
+}
+
+/// The largest component.
+fn largest(color: Color) -> f32 {
+    color.rgb.into_iter().fold(0.0, f32::max)
 }
 
 /// The unit vector from `from` to `to`; complains if they are equal.

@@ -32,6 +32,10 @@ impl Picture {
     pub(super) fn size(&self) -> [u32; 2] {
         [self.texels.width(), self.texels.height()]
     }
+    /// The largest component of any pixel.
+    pub(super) fn largest(&self) -> f32 {
+        self.texels.largest()
+    }
     /// The pixel in column `x` and row `y`; negative values become 0.
     pub(super) fn pixel(&self, x: u32, y: u32) -> Color {
         let [r, g, b, _] = self.texels.rgba(x, y);

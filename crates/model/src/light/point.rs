@@ -9,7 +9,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
-    Cone, INTENSITY_SCALE, Light, LightBounds, LightCx, LightSample, POSITION, POWER, Track,
+    Cone, INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track,
     falloff::Falloff, scaled, track::Anchor,
 };
 
@@ -52,6 +52,9 @@ impl Light for Point {
         let (wi, irradiance) = self.falloff.towards(position, p)?;
         let weight = cx.basis.emission(self.intensity) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+    }
+    fn bound(&self) -> LightBound {
+        self.falloff.bound(&self.anchor, self.intensity)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

@@ -70,6 +70,9 @@ impl Pattern for Slide {
         let [w, h] = self.half;
         Cone { axis: Vector3::new(0.0, 0.0, 1.0), angle: atan2((w * w + h * h).sqrt(), 1.0) * (1.0 + 1e-6) }
     }
+    fn largest(&self) -> f32 {
+        self.picture.largest()
+    }
     fn integral(&self) -> f32 {
         self.integral
     }

@@ -16,7 +16,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBounds, LightCx, LightSample, POSITION, POWER, Track, axis,
+    INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track, axis,
     falloff::Falloff, scaled, track::Anchor,
 };
 
@@ -100,6 +100,9 @@ impl Light for Spot {
         let (wi, irradiance) = self.falloff.towards(position, p)?;
         let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+    }
+    fn bound(&self) -> LightBound {
+        self.falloff.bound(&self.anchor, self.intensity)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

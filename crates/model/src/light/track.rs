@@ -110,6 +110,10 @@ impl Anchor {
             Some(_) => Cone::ALL,
         }
     }
+    /// The position, if it stands still.
+    pub(super) fn still(&self) -> Option<Point3> {
+        self.track.is_none().then_some(self.position)
+    }
     fn moved(&self, m: &DAffine3) -> (Point3, Vector3) {
         let p = Point3::from_f64(m.transform_point3(self.position.to_f64()));
         (p, Vector3::from_f64(m.transform_vector3(self.direction.to_f64()).normalize()))

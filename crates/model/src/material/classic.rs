@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, share, share_input};
+use super::{Arriving, Material, Sent, largest_share, sent::cosine_gain, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
     bsdf::{Blur, Blurred, Bsdf, Gloss, Highlight, Interface, Lobe, Split},
@@ -147,6 +147,28 @@ impl Material for Classic {
             });
         }
         bsdf
+    }
+    /// Nothing keeps the coefficients' sum below 1. The highlight of a lamp is less than twice its coefficient times the
+    /// lamp: `ks cos^n / pi` over a hemisphere.
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        let most = |input: Option<ColorInput>| input.map_or(0.0, |input| largest_share(cx, input));
+        let diffuse = largest_share(cx, self.diffuse);
+        let (ambient, specular) = (most(self.ambient.or(Some(self.diffuse))), most(self.specular));
+        let (reflection, transmission) = (most(self.reflection), most(self.transmission));
+        let followed = if self.fresnel { reflection.max(transmission) } else { reflection + transmission };
+        let blurs = [(reflection, self.gloss), (transmission, self.translucency)];
+        let blurred: f32 = blurs
+            .into_iter()
+            .filter(|(weight, exponent)| *weight > 0.0 && exponent.is_finite())
+            .map(|(weight, exponent)| {
+                arriving.highlight(weight * cosine_gain(exponent)) + weight * arriving.lamps
+            })
+            .sum();
+        let own = ambient * arriving.sky
+            + diffuse * (arriving.lamps + arriving.facing)
+            + specular * (2.0 * arriving.lamps + arriving.facing)
+            + blurred;
+        Sent { own, scattered: 0.0, followed: followed.min(1.0) }
     }
     fn medium(&self) -> Option<Medium> {
         self.transmission.is_some().then_some(self.medium)

@@ -2,7 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, roughness::Roughness, warn_unsupported};
+use super::{Arriving, Material, Sent, roughness::Roughness, warn_unsupported};
 use crate::{
     Medium, ShadeCx, Surface,
     bsdf::{Blur, Blurred, Bsdf, Interface, Lobe, SMOOTH},
@@ -65,5 +65,17 @@ impl Material for Dielectric {
     }
     fn medium(&self) -> Option<Medium> {
         Some(self.medium)
+    }
+    /// Of light without extent seen through frosted glass there is no bound: where indices are nearly the same, nearly
+    /// all directions are one.
+    fn sent(&self, _: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        match self.roughness.constant() {
+            Some(alpha) if alpha < SMOOTH => Sent { followed: 1.0, ..Sent::default() },
+            _ => Sent {
+                own: arriving.highlight(f32::INFINITY),
+                scattered: arriving.sky + arriving.lamps,
+                followed: 1.0,
+            },
+        }
     }
 }

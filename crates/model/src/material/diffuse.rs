@@ -2,7 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, share, share_input, warn_unsupported};
+use super::{Arriving, Material, Sent, largest_share, share, share_input, warn_unsupported};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Lobe},
@@ -42,5 +42,9 @@ impl Material for Diffuse {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let albedo = share(cx, self.reflectance, &surface.texture_at());
         Bsdf::default().with(Lobe::Diffuse { albedo })
+    }
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        let scattered = largest_share(cx, self.reflectance) * arriving.all();
+        Sent { scattered, ..Sent::default() }
     }
 }

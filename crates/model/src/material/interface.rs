@@ -2,7 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, Kind, Schema};
 
-use super::Material;
+use super::{Arriving, Material, Sent};
 use crate::{ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
 /// A surface that is a hole everywhere.
@@ -31,5 +31,9 @@ impl Material for Interface {
     }
     fn is_hole(&self, _cx: &ShadeCx<'_>, _at: &TextureAt) -> bool {
         true
+    }
+    /// Everything passes.
+    fn sent(&self, _: &ShadeCx<'_>, _: &Arriving) -> Sent {
+        Sent { followed: 1.0, ..Sent::default() }
     }
 }

@@ -2,7 +2,9 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamSpec, Schema};
 
-use super::{Material, roughness::Roughness, share, share_input};
+use super::{
+    Arriving, Material, Sent, largest_share, roughness::Roughness, sent::ggx_gain, share, share_input,
+};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Glossy, Lobe, SMOOTH},
@@ -47,5 +49,16 @@ impl Material for Mirror {
             true => Lobe::Mirror { weight },
             false => Lobe::Glossy(Glossy { f0: weight, f90: weight, alpha, scale: 1.0 }),
         })
+    }
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        let followed = largest_share(cx, self.reflectance);
+        match self.roughness.constant() {
+            Some(alpha) if alpha < SMOOTH => Sent { followed, ..Sent::default() },
+            alpha => Sent {
+                own: arriving.highlight(followed * alpha.map_or(f32::INFINITY, ggx_gain)),
+                scattered: arriving.sky + arriving.lamps,
+                followed,
+            },
+        }
     }
 }

@@ -10,6 +10,7 @@ mod mirror;
 mod normal_map;
 mod principled;
 mod roughness;
+mod sent;
 
 use std::fmt::Debug;
 
@@ -17,8 +18,13 @@ use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, ColorInput, Entry};
 
 pub use self::{
-    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, interface::Interface, mirror::Mirror,
+    classic::Classic,
+    dielectric::Dielectric,
+    diffuse::Diffuse,
+    interface::Interface,
+    mirror::Mirror,
     principled::Principled,
+    sent::{Arriving, GlossRays, Sent},
 };
 use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
@@ -32,12 +38,18 @@ pub trait Material: Debug + Send + Sync {
         let _ = (cx, at);
         Spectrum::BLACK
     }
+    /// The most that it can send where no more than this arrives.
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent;
     /// What fills the body behind the surface, if light can get in.
     fn medium(&self) -> Option<Medium> {
         None
     }
     /// True if some points of the surface may be holes, see [`Material::is_hole`].
     fn has_holes(&self) -> bool {
+        false
+    }
+    /// True if light may go straight on through some points of the surface that are no holes.
+    fn is_passed(&self) -> bool {
         false
     }
     /// True if the surface is not seen from behind: rays pass, but those to lights do not.
@@ -92,6 +104,11 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
 fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
     cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
+}
+
+/// No [`share`] of this input is larger.
+fn largest_share(cx: &ShadeCx<'_>, input: ColorInput) -> f32 {
+    cx.largest_color(input).min(1.0)
 }
 
 /// Warns about each of the parameters `names` that the file gives.

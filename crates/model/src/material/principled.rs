@@ -14,10 +14,10 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, normal_map, share, share_input};
+use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Glossy, Lobe, normal_reflectance},
+    bsdf::{Bsdf, Glossy, Lobe, SMOOTH, normal_reflectance},
     texture::TextureAt,
 };
 
@@ -216,6 +216,30 @@ impl Material for Principled {
         }
         cx.basis.emission(cx.color(self.emission, at)) * (self.strength * coverage)
     }
+    /// Colours of vertices are taken to be at most 1. What passes, or is mirrored, is followed; at grazing angles that is
+    /// everything.
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        let alpha = match self.roughness {
+            FloatInput::Constant(roughness) => Some(sqr(roughness.clamp(0.0, 1.0))),
+            FloatInput::Texture(_) => None,
+        };
+        let passes = self.mode == AlphaMode::Blend || self.transmission != FloatInput::Constant(0.0);
+        if self.unlit {
+            let followed = if passes { 1.0 } else { 0.0 };
+            return Sent { own: 0.0, scattered: cx.largest_color(self.base), followed };
+        }
+        let is_dull =
+            arriving.gloss == GlossRays::Main && alpha.is_some_and(|alpha| alpha >= Glossy::BLURRED);
+        let gain = match alpha {
+            Some(alpha) if alpha < SMOOTH => 0.0,
+            alpha => alpha.map_or(f32::INFINITY, ggx_gain),
+        };
+        Sent {
+            own: cx.largest_color(self.emission) * self.strength + arriving.highlight(gain),
+            scattered: arriving.all(),
+            followed: if is_dull && !passes { 0.0 } else { 1.0 },
+        }
+    }
     fn has_holes(&self) -> bool {
         self.mode != AlphaMode::Opaque
     }
@@ -225,6 +249,9 @@ impl Material for Principled {
             AlphaMode::Mask(cutoff) => self.alpha(cx, at) < cutoff,
             AlphaMode::Blend => self.alpha(cx, at) <= 0.0,
         }
+    }
+    fn is_passed(&self) -> bool {
+        self.mode == AlphaMode::Blend || self.transmission != FloatInput::Constant(0.0)
     }
     fn is_one_sided(&self) -> bool {
         self.one_sided

@@ -53,7 +53,21 @@ impl Roughness {
 
     /// The GGX width at a point, in `[0, 1]`.
     pub(super) fn alpha(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        let value = |input: FloatInput| cx.float(input, at).clamp(0.0, 1.0);
+        self.width(|input| cx.float(input, at))
+    }
+
+    /// The GGX width if it is the same everywhere.
+    pub(super) fn constant(&self) -> Option<f32> {
+        match (self.u, self.v) {
+            (FloatInput::Constant(u), FloatInput::Constant(v)) => {
+                Some(self.width(|input| if input == self.u { u } else { v }))
+            }
+            _ => None,
+        }
+    }
+
+    fn width(&self, value: impl Fn(FloatInput) -> f32) -> f32 {
+        let value = |input: FloatInput| value(input).clamp(0.0, 1.0);
         let mean = if self.u == self.v { value(self.u) } else { (value(self.u) * value(self.v)).sqrt() };
         if self.remap { mean.sqrt() } else { mean }
     }

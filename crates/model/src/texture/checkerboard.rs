@@ -39,6 +39,9 @@ impl<V: Value> Texture for Checkerboard<V> {
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.square(at).float(cx, at)
     }
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
+        self.tex1.largest(cx).max(self.tex2.largest(cx))
+    }
 }
 
 impl<V: Value> Kind for Checkerboard<V> {

@@ -18,6 +18,9 @@ impl<V: Value> Texture for Constant<V> {
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.value.float(cx, at)
     }
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
+        self.value.largest(cx)
+    }
 }
 
 impl<V: Value> Kind for Constant<V> {

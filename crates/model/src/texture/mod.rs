@@ -68,6 +68,8 @@ pub trait Texture: Debug + Send + Sync {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
     /// The number at a point.
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
+    /// No component of a colour and no number of it is of larger magnitude.
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32;
 }
 
 /// All kinds of texture that yield colours.

@@ -19,6 +19,9 @@ impl<V: Value> Texture for Scale<V> {
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.tex.float(cx, at) * cx.float(self.scale, at)
     }
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
+        self.tex.largest(cx) * cx.largest_float(self.scale)
+    }
 }
 
 impl<V: Value> Kind for Scale<V> {

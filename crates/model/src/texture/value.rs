@@ -21,6 +21,8 @@ pub trait Value: Debug + Copy + Send + Sync + 'static {
     fn color(self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
     /// As a number; of a colour, its luminance.
     fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
+    /// As [`super::Texture::largest`].
+    fn largest(self, cx: &ShadeCx<'_>) -> f32;
 }
 
 impl Value for ColorInput {
@@ -36,6 +38,9 @@ impl Value for ColorInput {
     fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         cx.color(self, at).luminance()
     }
+    fn largest(self, cx: &ShadeCx<'_>) -> f32 {
+        cx.largest_color(self)
+    }
 }
 
 impl Value for FloatInput {
@@ -50,5 +55,8 @@ impl Value for FloatInput {
     }
     fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         cx.float(self, at)
+    }
+    fn largest(self, cx: &ShadeCx<'_>) -> f32 {
+        cx.largest_float(self)
     }
 }

@@ -116,6 +116,7 @@ pub fn compile(
     let those =
         |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
     let mut scene = Scene {
+        brightest: Default::default(),
         report,
         objects: placed.objects,
         textures,
@@ -132,6 +133,9 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         media: Media::new(&materials),
+        is_passed: materials
+            .iter()
+            .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
         start: MediumStack::default(),
         materials,
     };

@@ -36,51 +36,65 @@ struct Start {
 }
 
 impl Job<'_> {
-    fn starts(&self, pixel: [u32; 2]) -> Vec<Start> {
-        let (view, nesting) = (&self.scene.view, self.settings.nesting);
+    /// The beginning of a sample that is not adaptive.
+    fn start(&self, pixel: [u32; 2], sample: u32) -> Start {
+        let (ray, weight) = self.eye(pixel, sample);
+        let (film, _) = pass::place(&self.scene.view, self.settings.nesting, pixel, &ray.sampler);
+        Start { ray, film, weight: Some(weight) }
+    }
+
+    fn starts(&self, pixel: [u32; 2]) -> Box<dyn Iterator<Item = Start> + '_> {
         match self.adaptive() {
             Some(how) => {
-                let places = adaptive::places(self, &how, pixel).into_iter();
                 let start = |place| Start {
                     ray: adaptive::eye(self, place),
                     film: adaptive::film_of(place),
                     weight: None,
                 };
-                places.map(start).collect()
+                Box::new(adaptive::places(self, &how, pixel).into_iter().map(start))
             }
-            None => (0..self.settings.samples)
-                .map(|sample| {
-                    let (ray, weight) = self.eye(pixel, sample);
-                    let (film, _) = pass::place(view, nesting, pixel, &ray.sampler);
-                    Start { ray, film, weight: Some(weight) }
-                })
-                .collect(),
+            None => Box::new((0..self.settings.samples).map(move |sample| self.start(pixel, sample))),
         }
+    }
+
+    fn taken(&self, sample: u32, start: Start, gather: Gather) -> Taken {
+        let Start { ray, film, weight } = start;
+        let (view, cx, mut out) = (&self.scene.view, self.cx(), Contribution::default());
+        let lens = pass::on_lens(view, self.settings.nesting, &ray.sampler);
+        let mut counters = gather.counters();
+        match &mut counters {
+            Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
+            None => self.integrator.sample(&cx, ray, &mut out),
+        }
+        Taken {
+            sample,
+            rgb: film_value(&cx, &out),
+            weight,
+            film: [film.x, film.y],
+            lens: lens.map(|u| view.camera.lens().at(u)),
+            time: ray.ray.time,
+            counters,
+        }
+    }
+
+    /// Takes the samples of a pixel, in their order, one at a time: whoever stops asking ends it.
+    pub fn each_sample(&self, pixel: [u32; 2], gather: Gather) -> impl Iterator<Item = Taken> + '_ {
+        (0..).zip(self.starts(pixel)).map(move |(sample, start)| self.taken(sample, start, gather))
+    }
+
+    /// Takes one sample of a pixel; `None` if the pixel does not have it.
+    pub fn sample_of(&self, pixel: [u32; 2], sample: u32, gather: Gather) -> Option<Taken> {
+        let start = match self.adaptive() {
+            Some(_) => self.starts(pixel).nth(sample as usize)?,
+            None if sample < self.settings.samples => self.start(pixel, sample),
+            None => return None,
+        };
+        Some(self.taken(sample, start, gather))
     }
 
     /// Takes all samples of a pixel, in their order.
     pub fn samples_of(&self, pixel: [u32; 2], gather: Gather) -> Vec<Taken> {
-        let (view, cx) = (&self.scene.view, self.cx());
-        let mut out = Contribution::default();
-        let take = |(sample, start): (u32, Start)| {
-            let Start { ray, film, weight } = start;
-            let lens = pass::on_lens(view, self.settings.nesting, &ray.sampler);
-            let mut counters = gather.counters();
-            match &mut counters {
-                Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
-                None => self.integrator.sample(&cx, ray, &mut out),
-            }
-            Taken {
-                sample,
-                rgb: film_value(&cx, &out),
-                weight,
-                film: [film.x, film.y],
-                lens: lens.map(|u| view.camera.lens().at(u)),
-                time: ray.ray.time,
-                counters,
-            }
-        };
-        (0..).zip(self.starts(pixel)).map(take).collect()
+        self.each_sample(pixel, gather).collect()
     }
 
     /// Takes all samples of all pixels of the rendered part, on all threads, and asks `each` for what is to be kept of

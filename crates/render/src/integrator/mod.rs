@@ -3,8 +3,10 @@
 //! An author writes one generic [`Transport::sample`]; what the driver holds is the object-safe [`Integrator`], which
 //! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
 
+mod ambient_occlusion;
 mod cast;
 mod distributed;
+mod path;
 mod shading;
 mod walk;
 mod whitted;
@@ -16,8 +18,10 @@ use crate::{
     probe::{Counters, NoProbe, Probe, Recorder, TreeNode},
 };
 
+pub use ambient_occlusion::AmbientOcclusion;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
+pub use path::{Direct, Path};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -124,20 +128,15 @@ impl<T: Transport> Integrator for T {
 }
 
 /// All integrators.
-pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] =
-    &[Entry::of::<Whitted>(), Entry::of::<Distributed>(), Entry::of::<Cast>()];
+pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
+    Entry::of::<Whitted>(),
+    Entry::of::<Distributed>(),
+    Entry::of::<Path>(),
+    Entry::of::<Direct>(),
+    Entry::of::<AmbientOcclusion>(),
+    Entry::of::<Cast>(),
+];
 
 /// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] = &[
-    "ambientocclusion",
-    "bdpt",
-    "function",
-    "lightpath",
-    "mlt",
-    "path",
-    "randomwalk",
-    "simplepath",
-    "simplevolpath",
-    "sppm",
-    "volpath",
-];
+pub const NOT_YET: &[&str] =
+    &["bdpt", "function", "lightpath", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];

@@ -77,7 +77,7 @@ impl RandomNumbers {
 /// What chose the direction of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChosenBy {
-    /// A light was sampled.
+    /// A light was sampled, after it was chosen among all with [`Choice::chance`].
     Light,
     /// A lobe has but this direction: mirrors, smooth interfaces.
     Sharp,
@@ -87,10 +87,10 @@ pub enum ChosenBy {
 
 /// How a ray and its weight came about:
 ///
-/// - [`ChosenBy::Light`]: `weight = f cos mis / rays`. It multiplies [`LightEvent::unoccluded`], which holds the division
-///   by `pdf`.
+/// - [`ChosenBy::Light`]: `weight = f cos mis / (rays chance)`. It multiplies [`LightEvent::unoccluded`], which holds the
+///   division by `pdf`.
 /// - [`ChosenBy::Sharp`]: `weight` is what the lobe reflects or transmits; `f`, `cos`, `pdf` do not apply.
-/// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`.
+/// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`; `chance` is 1.
 ///
 /// Whatever is lost on the way along the parent ray is part of `f`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,6 +114,8 @@ pub struct Choice {
     pub mis: Option<f32>,
     /// Probability with which this light was chosen among all, above 0 up to 1; 1 where there was no choice.
     pub chance: f32,
+    /// Probability with which chance let the ray live (Russian roulette); 1 where it was not asked.
+    pub kept: f32,
     /// The number that chose the light.
     pub light_choice: Option<RandomNumbers>,
     /// How many rays share this one's place.
@@ -134,6 +136,7 @@ impl Choice {
             other_pdf: None,
             mis: None,
             chance: 1.0,
+            kept: 1.0,
             light_choice: None,
             rays: 1,
             random: None,

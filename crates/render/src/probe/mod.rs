@@ -4,6 +4,7 @@
 //! Ids are explicit instead of push and pop, so that early returns cannot unbalance the tree and recursive and iterative
 //! integrators look alike.
 
+mod bound;
 mod counters;
 mod event;
 mod kind;

@@ -117,9 +117,20 @@ impl RayTree {
         self.nodes.iter().map(of).filter(|v| v.is_finite()).fold(0.0, f32::max)
     }
 
-    /// What the pixel lacks at most because rays were given up, if nothing in the scene is brighter than what this tree
-    /// has seen: [`RayTree::killed`] times [`RayTree::max_radiance`].
-    pub fn lost_bound(&self) -> Spectrum {
-        self.killed() * self.max_radiance()
+    /// What the pixel lacks at most because rays were given up: their shares times what they could have brought. That is
+    /// what a light sends, else `brightest`, the largest radiance in the scene ([`crate::Scene::brightest`]): what this
+    /// tree has seen tells nothing of what it has not.
+    pub fn lost_bound(&self, brightest: f32) -> Spectrum {
+        let of = |node: &TreeNode| match &node.light {
+            _ if node.lost.is_black() => Spectrum::BLACK,
+            Some(light) => node.lost * light.unoccluded,
+            None => node.lost * brightest,
+        };
+        self.nodes.iter().fold(Spectrum::BLACK, |sum, node| sum + of(node))
+    }
+
+    /// Whether rays were given up that lead to no light: what they could have brought is known of the scene only.
+    pub fn is_cut(&self) -> bool {
+        self.nodes.iter().any(|node| node.light.is_none() && !node.lost.is_black())
     }
 }

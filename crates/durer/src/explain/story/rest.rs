@@ -62,29 +62,37 @@ pub(super) fn cut(prepared: &Prepared, samples: &[Sample], explanation: &Explana
         [only] => only.split_once(' ').map_or(only.clone(), |(_, reason)| format!(" {reason}")),
         many => format!(": {}", list(many)),
     };
-    let sentences = vec![format!("{count} given up{why}."), bound(samples, explanation)];
+    let sentences = vec![format!("{count} given up{why}."), bound(prepared, samples, explanation)];
     Some(Paragraph { about: "cut", node: None, is_detail: false, sentences })
 }
 
 /// What rays that were given up could have brought.
-fn bound(samples: &[Sample], explanation: &Explanation) -> String {
-    let (missing, most) = (explanation.missing, survey::brightest(samples));
+fn bound(prepared: &Prepared, samples: &[Sample], explanation: &Explanation) -> String {
+    let sum: f64 = samples.iter().map(|s| luminance(survey::cut_share(&s.tree))).sum();
+    let mean = sum / samples.len().max(1) as f64;
+    let share = percent(mean);
+    let had = format!("They would have had {share} of the {}", of_what(samples));
+    let (Some(missing), Ok(most)) = (explanation.missing, prepared.brightest()) else {
+        let why = explanation.no_bound.as_deref().unwrap_or_default();
+        let seen = survey::brightest(samples);
+        let guess = match seen > 0.0 {
+            true => format!(
+                " If nothing is brighter than the {} that was seen, it is a luminance of {} at most.",
+                number(seen),
+                number(mean * seen)
+            ),
+            false => String::new(),
+        };
+        return format!("{had}; what they could have added has no bound: {why}.{guess}");
+    };
     let whole = luminance(explanation.rgb);
-    if most == 0.0 {
-        let sum: f64 = samples.iter().map(|s| luminance(survey::cut_share(&s.tree))).sum();
-        return format!(
-            "They would have had {} of the {}; nothing that was seen tells how bright what they lead to is.",
-            percent(sum / samples.len().max(1) as f64),
-            of_what(samples)
-        );
-    }
     let share = match whole > 0.0 {
         true => format!(", {} of the {}", percent(luminance(missing) / whole), of_what(samples)),
         false => String::new(),
     };
     format!(
-        "If nothing in the scene is brighter than the {} that was seen, they could have added {} at most{share}.",
-        number(most),
+        "{had}; as nothing in the scene is brighter than {}, they could have added {} at most{share}.",
+        number(most.into()),
         color(missing)
     )
 }

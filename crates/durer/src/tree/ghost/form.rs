@@ -100,7 +100,9 @@ fn plane(piece: &Piece<'_>, shape: &dyn Shape, bounds: &Bounds3) -> Option<Soup>
     let surface = shape.surface(&ray, &hit);
     let n = DVec3::new(surface.n_g.x.into(), surface.n_g.y.into(), surface.n_g.z.into());
     let foot = middle.to_f64() - n * n.dot(middle.to_f64() - surface.p.to_f64());
-    let span = if finite { f64::from(bounds.diagonal().length()).max(1e-3) } else { 10.0 };
+    let off = (foot - middle.to_f64()).length();
+    // Of nothing finite the page finds the size by its rays; here the corners must only be apart, however far it is.
+    let span = if finite { f64::from(bounds.diagonal().length()).max(off * 1e-3) } else { off.max(10.0) };
     let (u, v) = n.any_orthonormal_pair();
     let (u, v) = (u * span * PLANE / 2.0, v * span * PLANE / 2.0);
     let positions = vec![foot - u - v, foot + u - v, foot + u + v, foot - u + v];

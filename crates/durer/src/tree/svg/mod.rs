@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use super::{
     document::{Node, Tree},
-    look::{Look, met, short, triple},
+    look::{Look, Wording, met, short, triple},
     page::Page,
 };
 use layout::layout;
@@ -149,7 +149,7 @@ fn circle(text: &mut String, node: &Node, [x, y]: [f64; 2], number: usize) {
     let title = format!(
         "{} {}, weight {}, adds {}, result {}",
         node.id,
-        met(node),
+        met(node, Wording::Short),
         triple(node.weight),
         triple(node.contribution),
         triple(node.result)

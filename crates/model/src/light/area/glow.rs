@@ -4,7 +4,7 @@ use std::sync::Arc;
 use durer_core::spectrum::{Basis, Color};
 use durer_scene::{Args, ColorInput};
 
-use super::super::picture::Picture;
+use super::super::{largest, picture::Picture};
 use crate::{
     ShadeCx,
     material::Material,
@@ -70,6 +70,16 @@ pub struct Looks {
 impl Looks {
     pub(super) fn has_holes(&self) -> bool {
         self.holes.is_some()
+    }
+    /// The largest component that [`Looks::color`] may give.
+    pub(super) fn largest(&self, glow: &Glow) -> f32 {
+        let cx = ShadeCx { basis: Basis::Rgb, textures: &self.textures, log: None };
+        match glow {
+            Glow::Even(color) => largest(*color),
+            Glow::Texture(index) if self.textures.get(*index as usize).is_none() => 0.0,
+            Glow::Texture(index) => cx.largest_color(ColorInput::Texture(*index)),
+            Glow::Picture(picture) => picture.largest(),
+        }
     }
     /// The radiance where textures are looked up at `at`; black in a hole.
     pub(super) fn color(&self, glow: &Glow, basis: Basis, at: &TextureAt) -> Color {

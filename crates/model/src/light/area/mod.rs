@@ -30,7 +30,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use self::{emitter::Emitter, glow::Glow};
-use super::{Light, LightBounds, LightCx, LightHit, LightSample, POWER, Track};
+use super::{Light, LightBound, LightBounds, LightCx, LightHit, LightSample, POWER, Track};
 use crate::{Surface, shape::Geometry, texture::TextureAt};
 
 pub use self::glow::{Looks, Materials, Textures};
@@ -200,6 +200,11 @@ impl Light for Area {
         let point = offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), back);
         let wi = Vector3::from_f64(towards / distance);
         Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32) })
+    }
+
+    fn bound(&self) -> LightBound {
+        let seen = self.looks.largest(&self.emission.glow) * self.factor;
+        LightBound { seen, ..LightBound::default() }
     }
 
     fn bounds(&self) -> Option<LightBounds> {

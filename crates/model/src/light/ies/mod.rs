@@ -34,6 +34,9 @@ impl Pattern for Turned {
     fn cone(&self) -> Cone {
         Cone { axis: self.axes[2], angle: self.profile.end() }
     }
+    fn largest(&self) -> f32 {
+        self.profile.largest()
+    }
     fn integral(&self) -> f32 {
         self.profile.integral()
     }

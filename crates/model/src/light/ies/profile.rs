@@ -116,6 +116,11 @@ impl Profile {
         self.down[(last + 1).min(rows - 1)]
     }
 
+    /// The largest intensity.
+    pub(super) fn largest(&self) -> f32 {
+        self.values.iter().copied().fold(0.0, f32::max)
+    }
+
     /// The integral over all directions: intensities are linear in the angle down, by its sine.
     pub(super) fn integral(&self) -> f32 {
         let rows = self.down.len();

@@ -29,8 +29,8 @@ use self::{
     pyramid::Pyramid,
 };
 use super::{
-    LEAST_REACH, Light, LightCx, LightSample, Track, UNIFORM, picture::unfit, scaled, sky_power,
-    uniform_direction,
+    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, picture::unfit, scaled,
+    sky_power, uniform_direction,
 };
 
 /// A sky all around.
@@ -241,6 +241,12 @@ impl Light for Infinite {
     }
     fn surrounds(&self) -> bool {
         true
+    }
+    /// Blurring makes nothing brighter.
+    fn bound(&self) -> LightBound {
+        let of_picture = self.picture.as_ref().map_or(1.0, |picture| picture.panorama.largest());
+        let most = largest(self.radiance) * of_picture;
+        LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {
         self.emitted(basis, Vector3::new(n.x, n.y, n.z), |p, n| p.blur.ambient(n))

@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use durer_core::math::Vector3;
 use durer_scene::{Image, ImageData};
+use rayon::prelude::*;
 
 use super::layout::Layout;
 use crate::texture::imagemap::texels::Texels;
@@ -37,6 +38,12 @@ impl Panorama {
     pub(super) fn is_black(&self) -> bool {
         let [width, height] = self.size();
         (0..height).all(|y| (0..width).all(|x| self.pixel(x, y) == [0.0; 3]))
+    }
+    /// The largest component of all pixels.
+    pub(super) fn largest(&self) -> f32 {
+        let [width, height] = self.size();
+        let of_row = |y| (0..width).flat_map(move |x| self.pixel(x, y)).fold(0.0, f32::max);
+        (0..height).into_par_iter().map(of_row).reduce(|| 0.0, f32::max)
     }
     /// Linear RGB in unit direction `d`, bilinear.
     pub(super) fn seen(&self, d: Vector3) -> [f32; 3] {

@@ -177,6 +177,12 @@ impl Texture for ImageMap {
             Channel::Luminance => Color::new(r, g, b).luminance(),
         })
     }
+    /// Interpolation makes nothing larger.
+    fn largest(&self, _: &ShadeCx<'_>) -> f32 {
+        let scaled = self.scale.abs() * self.texels.largest();
+        let factor = self.factor.rgb.into_iter().fold(0.0, |most: f32, v| most.max(v.abs()));
+        (if self.invert { 1.0 + scaled } else { scaled }) * factor
+    }
 }
 
 const FILENAME: ParamSpec = ParamSpec::new(

@@ -2,6 +2,7 @@
 use std::sync::Arc;
 
 use durer_scene::{Image, ImageData};
+use rayon::prelude::*;
 
 use super::srgb;
 
@@ -40,6 +41,14 @@ impl Texels {
             3 => [color(0), color(1), color(2), 1.0],
             _ => [color(0), color(1), color(2), self.stored(first + 3) as f32],
         }
+    }
+    /// No value is of larger magnitude.
+    pub(crate) fn largest(&self) -> f32 {
+        let stored = match &self.image.data {
+            ImageData::U8(_) | ImageData::U16(_) => return 1.0,
+            ImageData::F32(v) => v.par_iter().map(|v| v.abs()).reduce(|| 1.0, f32::max),
+        };
+        if self.encoded { stored.max(srgb::decode(stored.into())) } else { stored }
     }
     /// A value as stored; integers are mapped to `[0, 1]`.
     fn stored(&self, i: usize) -> f64 {
