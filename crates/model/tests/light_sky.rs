@@ -294,3 +294,71 @@ fn black_skies_are_not_sampled() {
     let params = Params::new().with("L", ValueType::Rgb, Data::Floats(vec![0.0, 0.0, 1.0]));
     assert!(built("infinite", params, no_image()).is_sampled());
 }
+
+fn toward(params: Params, name: &str, d: [f32; 3]) -> Params {
+    params.with(name, ValueType::Vector3, Data::Floats(d.to_vec()))
+}
+
+#[test]
+fn a_disk_gives_its_irradiance_and_is_seen_where_it_is_sampled() {
+    const N: u32 = 4096;
+    for angle in [0.53f32, 20.0] {
+        let sun = built("distant", Params::new().float("angle", angle).rgb("L", [3.0; 3]), no_image());
+        assert!(sun.is_disk() && !sun.surrounds());
+        let mut irradiance = 0.0;
+        for i in 0..N {
+            let s = sun
+                .sample(&CX, Point3::ZERO, &Sampler::new(SamplerKind::Sobol, 1, [0, 0], i, N))
+                .expect("lit");
+            irradiance += f64::from(s.weight.mean() * -s.wi.z) / f64::from(N);
+            let half = s.wi.to_f64().angle_between(-DVec3::Z).to_degrees() * 2.0;
+            assert!(half <= f64::from(angle) * 1.0001, "{half}");
+            if half < f64::from(angle) * 0.999 {
+                let pdf = s.pdf.expect("of some extent");
+                assert!((sun.pdf_escaped(&CX, Point3::ZERO, s.wi) / pdf - 1.0).abs() < 1e-5);
+                let seen = sun.escaped(Basis::Rgb, s.wi).mean();
+                assert!((s.weight.mean() * pdf / seen - 1.0).abs() < 1e-4);
+            }
+        }
+        assert!((irradiance / 3.0 - 1.0).abs() < 1e-3, "{angle}: {irradiance}");
+        assert_eq!(sun.escaped(Basis::Rgb, Vector3::new(0.0, 0.0, 1.0)).mean(), 0.0);
+    }
+    assert!(!built("distant", Params::new(), no_image()).is_disk());
+}
+
+#[test]
+fn a_clear_sky_is_blue_and_brightest_about_the_sun() {
+    let sky = |turbidity: f32, sun: [f32; 3]| {
+        built("sky", toward(Params::new().float("turbidity", turbidity), "sun", sun), no_image())
+    };
+    let high = [0.0, 0.8, 0.6];
+    let clear = sky(2.5, high);
+    let at = |sky: &dyn Light, d: [f64; 3]| {
+        Basis::Rgb.to_rgb(sky.escaped(Basis::Rgb, v(DVec3::from_array(d).normalize())))
+    };
+    let luminance = |rgb: [f32; 3]| durer_core::spectrum::Color { rgb }.luminance();
+    let zenith = at(&*clear, [0.0, 1.0, 0.0]);
+    // Equation A.2 for 2.5 and 36.87 degrees: chi = 0.788889, 5.14225 tan chi - 0.53875 + 2.4192 kcd/m².
+    let expected = {
+        let chi = (4.0 / 9.0 - 2.5 / 120.0) * (PI - 2.0 * 0.6f64.asin());
+        (4.0453 * 2.5 - 4.9710) * chi.tan() - 0.2155 * 2.5 + 2.4192
+    };
+    assert!((f64::from(luminance(zenith)) / expected - 1.0).abs() < 0.02, "{zenith:?}, expected {expected}");
+    assert!(zenith[2] > 1.5 * zenith[0], "{zenith:?}");
+    let [near, away] = [[0.0, 0.75, 0.65], [0.0, 0.8, -0.6]].map(|d| luminance(at(&*clear, d)));
+    assert!(near > 2.0 * away, "{near} {away}");
+    // The lower the sun, the redder its light and the darker the sky.
+    let low = sky(2.5, [1.0, 0.05, 0.0]);
+    assert!(luminance(at(&*low, [0.0, 1.0, 0.0])) < 0.5 * luminance(zenith));
+    let sun = |height: f32| {
+        let sun = built("sun", toward(Params::new(), "sun", [1.0, height, 0.0]), no_image());
+        sun.sample(&CX, Point3::ZERO, &Sampler::middle()).map_or([0.0; 3], |s| Basis::Rgb.to_rgb(s.weight))
+    };
+    let [noon, evening] = [2.0, 0.05].map(sun);
+    assert!((70.0..120.0).contains(&luminance(noon)), "klx at noon: {noon:?}");
+    assert!(evening[0] > 3.0 * evening[2] && luminance(evening) < 0.4 * luminance(noon), "{evening:?}");
+    assert_eq!(sun(-0.1), [0.0; 3]);
+    // The ground is lit by both.
+    let ground = luminance(at(&*clear, [0.0, -1.0, 0.0]));
+    assert!((3.0..9.0).contains(&ground), "{ground}");
+}

@@ -84,6 +84,8 @@ pub struct Scene {
     pub(crate) lamps: Vec<u32>,
     /// The lights around the scene.
     pub(crate) surroundings: Vec<u32>,
+    /// The lights that rays see which left: those around the scene, and for paths disks like the sun.
+    pub(crate) far: Vec<u32>,
     /// By which one of the lights is chosen that rays can be cast to.
     pub(crate) chooser: LightChooser,
     /// Names of the lights.

@@ -14,9 +14,11 @@ mod infinite;
 mod picture;
 mod point;
 mod projection;
+mod sky;
 mod sky_blur;
 mod spot;
 mod steps;
+mod sun;
 mod track;
 mod tree;
 
@@ -46,8 +48,10 @@ pub use self::{
     infinite::Infinite,
     point::Point,
     projection::Projection,
+    sky::Sky,
     spot::Spot,
     steps::Steps,
+    sun::Sun,
     track::Track,
     tree::{Cone, LightBounds, LightTree, Picked},
 };
@@ -127,6 +131,10 @@ pub trait Light: Debug + Send + Sync {
     }
     /// The most that it can send.
     fn bound(&self) -> LightBound;
+    /// Whether it is a disk infinitely far away: sampled as a lamp, and seen by paths that left the scene.
+    fn is_disk(&self) -> bool {
+        false
+    }
     /// Whether it surrounds the scene: it has an ambient term, which stands for shadow rays where no path is drawn, or is
     /// seen by rays that left.
     fn surrounds(&self) -> bool {
@@ -188,11 +196,13 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
     Entry::of::<Ies>(),
     Entry::of::<Infinite>(),
     Entry::of::<GradientSky>(),
+    Entry::of::<Sky>(),
+    Entry::of::<Sun>(),
     Entry::of::<Ambient>(),
 ];
 
 /// Lights that are all around: what a picture of the surroundings replaces.
-pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky"];
+pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky", "sky"];
 
 /// Factor on the intensity of lights without extent.
 const INTENSITY_SCALE: ParamSpec =

@@ -124,6 +124,7 @@ pub fn compile(
         material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
+        far: those(|light| light.surrounds() || light.is_disk()),
         chooser: LightChooser::new(&lights, radius),
         lights,
         light_names,

@@ -57,7 +57,7 @@ impl Layout {
     }
 
     /// The unit direction of a place in the picture.
-    pub(super) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
+    pub(in super::super) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
         match self {
             Self::LatitudeLongitude => {
                 let (azimuth, from_zenith) = (u * TAU, v * PI);

@@ -10,7 +10,7 @@ mod panorama;
 mod portal;
 mod pyramid;
 
-use std::f32::consts::PI;
+use std::{f32::consts::PI, sync::Arc};
 
 use durer_core::{
     glam::DAffine3,
@@ -18,7 +18,7 @@ use durer_core::{
     sampling::{Dim, Sampler},
     spectrum::{Basis, Color, Spectrum},
 };
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Image, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 pub(super) use self::layout::Layout;
 use self::{
@@ -57,6 +57,11 @@ struct Picture {
 }
 
 impl Picture {
+    fn new(panorama: Panorama, pyramid: &Pyramid) -> Self {
+        let blur = Blur::of(pyramid, panorama.size()[1]);
+        let density = Density::of(&panorama);
+        Self { panorama, blur, density, render_from_light: Transform::IDENTITY, shrinking: 1.0 }
+    }
     /// Density of the unit direction `d` in render space which is `towards`, of any length, in the light's own: the solid
     /// angle about it grows by `|det M| / |M d|^3`.
     fn spread(&self, density: f32, towards: Vector3) -> f32 {
@@ -148,11 +153,8 @@ impl Kind for Infinite {
             }
             scale *= wanted / found;
         }
-        let blur = Blur::of(&pyramid, panorama.size()[1]);
-        let density = Density::of(&panorama);
-        let render_from_light = Transform::IDENTITY;
-        let picture = Box::new(Picture { panorama, blur, density, render_from_light, shrinking: 1.0 });
-        Some(Box::new(Self { picture: Some(picture), ..even(Color::gray(scale)) }))
+        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        Some(Box::new(Self { picture, ..even(Color::gray(scale)) }))
     }
 }
 
@@ -171,6 +173,13 @@ fn portal(args: &mut Args<'_>) -> Option<Portal> {
 }
 
 impl Infinite {
+    /// A sound picture, times `scale`.
+    pub(super) fn of_picture(image: Arc<Image>, layout: Layout, scale: f32) -> Self {
+        let panorama = Panorama::new(image, layout);
+        let pyramid = Pyramid::of(&panorama);
+        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        Self { radiance: Color::gray(scale), picture, portal: None, view: None }
+    }
     /// Mean luminance over the sphere.
     fn mean(&self) -> f32 {
         let of = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
