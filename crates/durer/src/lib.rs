@@ -30,8 +30,8 @@ pub use durer_io::{
 };
 pub use durer_model as model;
 pub use durer_render::{
-    Contribution, Form, ImbalanceTotals, MediumStack, Object, PathRay, Piece, SampleCx, Scene, Value, View,
-    compile,
+    Chosen, Contribution, Form, ImbalanceTotals, LightSampler, Lit, MediumStack, Object, PathRay, Piece,
+    SampleCx, Scene, Value, View, compile,
     drive::{self, Gather, Job, Progress, Rendered, Settings},
     film,
     integrator::{self, Output, Shadows, Show},

@@ -16,7 +16,7 @@ use durer_model::{
 };
 use durer_scene::Mesh;
 
-use crate::{Media, MediumStack, SampleCx, View, probe::Probe};
+use crate::{Media, MediumStack, SampleCx, View, light_sampler::LightChooser, probe::Probe};
 
 /// A thing with a name and a material: what a hit belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,11 +71,11 @@ pub struct Scene {
     /// What hits belong to.
     pub objects: Vec<Object>,
     /// Materials, as [`Object::material`] numbers them.
-    pub materials: Vec<Box<dyn Material>>,
+    pub materials: Arc<[Box<dyn Material>]>,
     /// Names of the materials; empty where the description gives none.
     pub material_names: Vec<String>,
     /// Textures, in the order of the description.
-    pub textures: Vec<Box<dyn Texture>>,
+    pub textures: Arc<[Box<dyn Texture>]>,
     /// Names of the textures.
     pub texture_names: Vec<String>,
     /// Lights.
@@ -84,8 +84,10 @@ pub struct Scene {
     pub(crate) lamps: Vec<u32>,
     /// The lights around the scene.
     pub(crate) surroundings: Vec<u32>,
-    /// The lights that paths choose among: all whose [`Light::sample`] may give something.
-    pub(crate) sources: Vec<u32>,
+    /// The lights that rays see which left: those around the scene, and for paths disks like the sun.
+    pub(crate) far: Vec<u32>,
+    /// By which one of the lights is chosen that rays can be cast to.
+    pub(crate) chooser: LightChooser,
     /// Names of the lights.
     pub light_names: Vec<String>,
     /// The camera.
@@ -257,46 +259,6 @@ impl Scene {
     /// The lights that surround the scene: those with an ambient term, or seen by rays that left.
     pub fn surroundings(&self) -> impl Iterator<Item = &dyn Light> {
         self.surroundings.iter().map(|&i| &*self.lights[i as usize])
-    }
-    /// One of the lights that rays are cast to, chosen by number `u` in `[0, 1)` in proportion to what each could send to `p`
-    /// at `time`, and the probability of that; `None` if nothing can come from any.
-    pub(crate) fn choose_lamp(&self, p: Point3, time: f32, u: f32) -> Option<(usize, f32)> {
-        if let [only] = self.lamps.as_slice() {
-            return Some((*only as usize, 1.0));
-        }
-        // PERF: most scenes have few lights (bench render).
-        let mut few = [0.0f32; 8];
-        let reach = |lamp: u32| self.lights[lamp as usize].reach(p, time);
-        let mut total = 0.0;
-        for (i, &lamp) in self.lamps.iter().enumerate() {
-            let own = reach(lamp);
-            total += own;
-            if let Some(kept) = few.get_mut(i) {
-                *kept = own;
-            }
-        }
-        let mut left = u * total;
-        let mut chosen = None;
-        for (i, &lamp) in self.lamps.iter().enumerate() {
-            let own = few.get(i).copied().unwrap_or_else(|| reach(lamp));
-            if own > 0.0 {
-                chosen = Some((lamp as usize, own / total));
-                if left < own {
-                    break;
-                }
-            }
-            left -= own;
-        }
-        chosen
-    }
-    /// The probability with which [`Scene::choose_lamp`] gives `light`.
-    pub(crate) fn lamp_chance(&self, light: usize, p: Point3, time: f32) -> f32 {
-        if self.lamps.len() == 1 {
-            return 1.0;
-        }
-        let reach = |lamp: usize| self.lights[lamp].reach(p, time);
-        let total: f32 = self.lamps.iter().map(|&lamp| reach(lamp as usize)).sum();
-        if total > 0.0 { reach(light) / total } else { 0.0 }
     }
     /// Radiance along a ray that left the scene.
     pub fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {

@@ -37,6 +37,9 @@ impl Kind for Ambient {
 
 impl Light for Ambient {
     fn place(&mut self, _track: &Track) {}
+    fn power(&self, _radius: f32) -> f32 {
+        0.0
+    }
     fn surrounds(&self) -> bool {
         true
     }

@@ -1,5 +1,16 @@
-//! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. The sun.
-use durer_core::{math::Point3, sampling::Sampler, spectrum::Color};
+//! A light infinitely far away: parallel rays, the same irradiance `E = L cos` everywhere. Or nearly parallel ones: a disk of
+//! half angle `a` has the radiance `E / (pi sin² a)`, is sampled evenly over its solid angle `2 pi (1 - cos a)`, and is seen by
+//! paths that leave the scene.
+use std::f32::consts::{PI, TAU};
+
+use durer_core::{
+    math::{
+        Frame, Normal3, Point3, Vector3,
+        float::{cos, sin, sqr},
+    },
+    sampling::{Dim, Sampler},
+    spectrum::{Basis, Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Light, LightBound, LightCx, LightSample, Track, axis, largest, scaled, track::Anchor};
@@ -10,6 +21,39 @@ pub struct Distant {
     /// The direction in which the light travels.
     anchor: Anchor,
     irradiance: Color,
+    disk: Option<Disk>,
+}
+
+/// A light that has a size.
+#[derive(Clone, Copy, Debug)]
+struct Disk {
+    radiance: Color,
+    /// `1 - cos` of half the angle across it.
+    opening: f32,
+}
+
+impl Disk {
+    /// One of so many degrees across that gives this irradiance.
+    fn new(irradiance: Color, degrees: f32) -> Option<Self> {
+        let half = 0.5 * degrees.to_radians();
+        let opening = 2.0 * sqr(sin(0.5 * half));
+        (opening > 0.0).then(|| Self { radiance: irradiance * (1.0 / (PI * sqr(sin(half)))), opening })
+    }
+    fn density(self) -> f32 {
+        1.0 / (TAU * self.opening)
+    }
+    /// Whether unit direction `d` is in it whose middle is at `middle`.
+    fn holds(self, middle: Vector3, d: Vector3) -> bool {
+        // 1 - cos of the angle between them.
+        0.5 * (d - middle).length_squared() <= self.opening
+    }
+}
+
+impl Distant {
+    /// A light that travels from `from` along unit `direction`, with this irradiance; `degrees` across.
+    pub(super) fn new(from: Point3, direction: Vector3, irradiance: Color, degrees: f32) -> Self {
+        Self { anchor: Anchor::new(from, direction), irradiance, disk: Disk::new(irradiance, degrees) }
+    }
 }
 
 impl Kind for Distant {
@@ -39,13 +83,16 @@ impl Kind for Distant {
             .unit("m"),
             ParamSpec::new("to", ParamType::Point3, ParamDefault::Triple([0.0, 0.0, 1.0]), "towards here.")
                 .unit("m"),
+            ParamSpec::float("angle", 0.0, "Angle across the light: with one, shadows have soft edges.")
+                .unit("degrees")
+                .range(0.0, 90.0),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let irradiance = scaled(args, "L", "illuminance", 1.0);
         let (from, to): (Point3, Point3) = (args.triple("from").into(), args.triple("to").into());
-        let anchor = Anchor::new(from, axis(args, from, to)?);
-        Some(Box::new(Self { anchor, irradiance }))
+        let direction = axis(args, from, to)?;
+        Some(Box::new(Self::new(from, direction, irradiance, args.float("angle"))))
     }
 }
 
@@ -53,15 +100,49 @@ impl Light for Distant {
     fn place(&mut self, track: &Track) {
         self.anchor.place(track);
     }
-    fn sample(&self, cx: &LightCx, _p: Point3, _sampler: &Sampler) -> Option<LightSample> {
-        let weight = cx.basis.emission(self.irradiance);
-        let (_, direction) = self.anchor.at(cx.time);
-        (!weight.is_black()).then_some(LightSample { wi: -direction, point: None, weight, pdf: None })
+    fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let middle = -self.anchor.at(cx.time).1;
+        let Some(disk) = self.disk else {
+            let weight = cx.basis.emission(self.irradiance);
+            return (!weight.is_black()).then_some(LightSample {
+                wi: middle,
+                point: None,
+                weight,
+                pdf: None,
+            });
+        };
+        let u = sampler.d2(Dim::Light);
+        let down = u.x * disk.opening;
+        let (r, azimuth) = ((down * (2.0 - down)).sqrt(), TAU * u.y);
+        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - down);
+        let wi = Frame::from_z(Normal3::from(middle)).to_world(local).normalize();
+        let weight = cx.basis.emission(disk.radiance) / disk.density();
+        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(disk.density()) })
+    }
+    fn is_disk(&self) -> bool {
+        self.disk.is_some()
+    }
+    fn pdf_escaped(&self, cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
+        let middle = -self.anchor.at(cx.time).1;
+        self.disk.filter(|disk| disk.holds(middle, d)).map_or(0.0, Disk::density)
+    }
+    fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
+        // Suns that move while the shutter is open are seen where they are at first.
+        let middle = -self.anchor.at(f32::NEG_INFINITY).1;
+        let radiance = self.disk.filter(|disk| disk.holds(middle, d)).map(|disk| disk.radiance);
+        radiance.map_or(Spectrum::BLACK, |radiance| basis.emission(radiance))
     }
     fn bound(&self) -> LightBound {
-        LightBound { facing: largest(self.irradiance), ..LightBound::default() }
+        let seen = self.disk.map_or(0.0, |disk| largest(disk.radiance));
+        LightBound { seen, facing: largest(self.irradiance), ..LightBound::default() }
     }
-    fn reach(&self, _p: Point3, _time: f32) -> f32 {
-        self.irradiance.luminance()
+    fn reach(&self, _p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        let (_, direction) = self.anchor.at(time);
+        // Of a disk some may rise where the middle does not.
+        let above = self.disk.map_or(0.0, |disk| (disk.opening * (2.0 - disk.opening)).sqrt());
+        self.irradiance.luminance() * n.map_or(1.0, |n| (above - n.dot(direction)).max(0.0))
+    }
+    fn power(&self, radius: f32) -> f32 {
+        PI * sqr(radius) * self.irradiance.luminance()
     }
 }

@@ -2,7 +2,7 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Point3, Vector3},
+    math::{Normal3, Point3, Vector3},
     spectrum::Color,
 };
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
@@ -43,6 +43,11 @@ impl Falloff {
             Self::None => PI,
         };
         irradiance.is_finite().then(|| (d / distance, irradiance))
+    }
+    /// The irradiance per intensity at `p` on a surface of unit normal `n`, or facing the light.
+    pub(super) fn reach(self, light: Point3, p: Point3, n: Option<Normal3>) -> f32 {
+        let cos = |wi: Vector3| n.map_or(1.0, |n| n.dot(wi).max(0.0));
+        self.towards(light, p).map_or(0.0, |(wi, irradiance)| irradiance * cos(wi))
     }
     /// The most that a light of this intensity at `anchor` can send. Of one that moves and fades there is no bound.
     pub(super) fn bound(self, anchor: &Anchor, intensity: Color) -> LightBound {

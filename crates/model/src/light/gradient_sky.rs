@@ -3,13 +3,25 @@
 //! With `s` the sine of the elevation, the radiance is `horizon + (zenith - horizon) w(s)`, `w = 1 - (1 - s)²`, above the
 //! horizon and `horizon + (ground - horizon) v(-s)`, `v = 1 - (1 - s)^8`, below: continuous, with a thin rim of haze under
 //! the horizon. The ambient term and glossy reflections weigh the three colours by blurred `w` and `v` (`sky_blur.rs`).
+use std::f32::consts::{PI, TAU};
+
 use durer_core::{
-    math::{Normal3, Vector3, float::sqr},
+    math::{
+        Frame, Normal3, Point3, Vector3,
+        float::{cos, sin, sqr},
+    },
+    sampling::{Dim, Sampler},
     spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightBound, Track, largest, sky_blur::SkyBlur};
+use super::{
+    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, sky_blur::SkyBlur,
+    sky_power, steps,
+};
+
+/// Belts of equal solid angle, on each of which directions are drawn evenly.
+const BELTS: usize = 128;
 
 /// A gradient sky.
 #[derive(Debug)]
@@ -23,6 +35,10 @@ pub struct GradientSky {
     zenith_weight: SkyBlur,
     /// Blurred weight of the ground.
     ground_weight: SkyBlur,
+    /// Sums of the shares of the belts, from the nadir up; all 0 if it is black.
+    belts: Vec<f32>,
+    /// Mean luminance over the sphere.
+    mean: f32,
 }
 
 /// Share of the zenith's colour at sine `s` of the elevation.
@@ -33,6 +49,11 @@ fn zenith_weight(s: f32) -> f32 {
 /// Share of the ground's colour.
 fn ground_weight(s: f32) -> f32 {
     1.0 - sqr(sqr(sqr(1.0 + s.clamp(-1.0, 0.0))))
+}
+
+/// Sine of the elevation, counted in belts from the nadir.
+fn height(belts: f32) -> f32 {
+    2.0 * belts / BELTS as f32 - 1.0
 }
 
 impl Kind for GradientSky {
@@ -67,18 +88,37 @@ impl Kind for GradientSky {
             return None;
         }
         let scale = args.float("scale");
-        Some(Box::new(Self {
+        let mut sky = Self {
             zenith: args.color("zenith") * scale,
             horizon: args.color("horizon") * scale,
             ground: args.color("ground") * scale,
             up: up.normalize(),
             zenith_weight: SkyBlur::of(zenith_weight),
             ground_weight: SkyBlur::of(ground_weight),
-        }))
+            belts: Vec::new(),
+            mean: 0.0,
+        };
+        sky.belts = (0..BELTS).map(|i| sky.luminance(i)).collect();
+        sky.mean = (steps::accumulate(&mut sky.belts) / BELTS as f64) as f32;
+        Some(Box::new(sky))
     }
 }
 
 impl GradientSky {
+    /// Mean luminance of the ends of a belt: above 0 where anything in it is, as the gradients are monotonic.
+    fn luminance(&self, belt: usize) -> f32 {
+        let end = |belt: usize| {
+            let s = height(belt as f32);
+            let (zenith, ground) = (zenith_weight(s), ground_weight(s));
+            let horizon = (1.0 - zenith - ground).max(0.0);
+            (self.zenith * zenith + self.horizon * horizon + self.ground * ground).luminance()
+        };
+        0.5 * (end(belt) + end(belt + 1))
+    }
+    /// Density of the directions of a belt, 1/sr.
+    fn density(&self, belt: usize) -> f32 {
+        steps::share(&self.belts, belt) * BELTS as f32 * UNIFORM
+    }
     fn mixed(&self, basis: Basis, zenith: f32, ground: f32) -> Spectrum {
         let horizon = (1.0 - zenith - ground).max(0.0);
         basis.emission(self.zenith * zenith + self.horizon * horizon + self.ground * ground)
@@ -89,6 +129,31 @@ impl Light for GradientSky {
     fn place(&mut self, track: &Track) {
         let m = track.at(f32::NEG_INFINITY);
         self.up = Vector3::from_f64(m.transform_vector3(self.up.to_f64()).normalize());
+    }
+    fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let u = sampler.d2(Dim::Light);
+        let (belt, rest, share) = steps::pick(&self.belts, u.y);
+        let z = height(belt as f32 + rest);
+        let (r, azimuth) = ((1.0 - sqr(z)).max(0.0).sqrt(), TAU * u.x);
+        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), z);
+        let wi = Frame::from_z(Normal3::from(self.up)).to_world(local);
+        let pdf = self.density(belt);
+        let weight = self.escaped(cx.basis, wi) / pdf;
+        (share > 0.0 && !weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
+    }
+    fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
+        let least = LEAST_REACH * self.mean;
+        PI * n.map_or(self.mean, |n| self.ambient(Basis::Rgb, n).mean().max(least))
+    }
+    fn power(&self, radius: f32) -> f32 {
+        sky_power(self.mean, radius)
+    }
+    fn is_sampled(&self) -> bool {
+        self.belts[BELTS - 1] > 0.0
+    }
+    fn pdf_escaped(&self, _cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
+        let belt = (0.5 * (d.dot(self.up) + 1.0) * BELTS as f32) as usize;
+        self.density(belt.min(BELTS - 1))
     }
     fn surrounds(&self) -> bool {
         true

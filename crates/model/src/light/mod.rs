@@ -4,19 +4,35 @@
 
 mod ambient;
 mod area;
+mod beam;
 mod distant;
 mod falloff;
+mod goniometric;
 mod gradient_sky;
+mod ies;
 mod infinite;
+mod picture;
 mod point;
+mod projection;
+mod sky;
 mod sky_blur;
 mod spot;
+mod steps;
+mod sun;
 mod track;
+mod tree;
 
-use std::fmt::Debug;
+use std::{
+    f32::consts::{PI, TAU},
+    fmt::Debug,
+};
 
 use durer_core::{
-    math::{Normal3, Point3, Vector3},
+    glam::DAffine3,
+    math::{
+        Normal3, Point2, Point3, Vector3,
+        float::{cos, sin, sqr},
+    },
     sampling::Sampler,
     spectrum::{Basis, Color, Spectrum},
 };
@@ -24,13 +40,20 @@ use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
     ambient::Ambient,
-    area::{Area, Emission, Orientation},
+    area::{Area, Emission, Looks, Materials, Orientation, Textures},
     distant::Distant,
+    goniometric::Goniometric,
     gradient_sky::GradientSky,
+    ies::Ies,
     infinite::Infinite,
     point::Point,
+    projection::Projection,
+    sky::Sky,
     spot::Spot,
+    steps::Steps,
+    sun::Sun,
     track::Track,
+    tree::{Cone, LightBounds, LightTree, Picked},
 };
 use crate::Surface;
 
@@ -62,18 +85,29 @@ pub trait Light: Debug + Send + Sync {
     /// Moves the light from its own space into render space, where `track` goes. Lights that surround the scene stand
     /// still where it begins.
     fn place(&mut self, track: &Track);
+    /// Moves what a light has in world space into render space, after [`Light::place`].
+    fn place_portal(&mut self, render_from_world: &DAffine3) {
+        let _ = render_from_world;
+    }
     /// Light that could arrive at `p`, if nothing is in between; `sampler` picks a point of an extended light. `None` if
     /// nothing can arrive or the light is not sampled this way.
     fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let _ = (cx, p, sampler);
         None
     }
-    /// A cheap estimate of the irradiance at `p` on a surface that faces the light, by which one light is chosen among
-    /// several: above 0 wherever [`Light::sample`] may give something. W/m², in luminance.
-    fn reach(&self, p: Point3, time: f32) -> f32 {
-        let _ = (p, time);
+    /// Where it is and how it shines, by which one of many lights is chosen; `None` for lights infinitely far away and for
+    /// those that do not fade with distance: they are chosen by [`Light::reach`].
+    fn bounds(&self) -> Option<LightBounds> {
+        None
+    }
+    /// An estimate of the irradiance at `p` on a surface of unit normal `n`, or facing the light, if it has no bounds: above
+    /// 0 wherever [`Light::sample`] may give something. W/m², in luminance.
+    fn reach(&self, p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        let _ = (p, n, time);
         1.0
     }
+    /// Luminance of all that it sends out, or into a scene of this `radius` if it is infinitely far away. W.
+    fn power(&self, radius: f32) -> f32;
     /// The density with which [`Light::sample`], asked at `from`, gives the direction of a point of this light, 1/sr; 0 if
     /// that side of it does not shine, and for lights that rays cannot meet.
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {
@@ -97,7 +131,12 @@ pub trait Light: Debug + Send + Sync {
     }
     /// The most that it can send.
     fn bound(&self) -> LightBound;
-    /// Whether it surrounds the scene: it is not sampled, but has an ambient term or is seen by rays that left.
+    /// Whether it is a disk infinitely far away: sampled as a lamp, and seen by paths that left the scene.
+    fn is_disk(&self) -> bool {
+        false
+    }
+    /// Whether it surrounds the scene: it has an ambient term, which stands for shadow rays where no path is drawn, or is
+    /// seen by rays that left.
     fn surrounds(&self) -> bool {
         false
     }
@@ -152,16 +191,18 @@ pub const LIGHTS: &[Entry<Box<dyn Light>>] = &[
     Entry::of::<Point>(),
     Entry::of::<Distant>(),
     Entry::of::<Spot>(),
+    Entry::of::<Projection>(),
+    Entry::of::<Goniometric>(),
+    Entry::of::<Ies>(),
     Entry::of::<Infinite>(),
     Entry::of::<GradientSky>(),
+    Entry::of::<Sky>(),
+    Entry::of::<Sun>(),
     Entry::of::<Ambient>(),
 ];
 
-/// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["goniometric", "projection"];
-
 /// Lights that are all around: what a picture of the surroundings replaces.
-pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky"];
+pub const SURROUNDINGS: &[&str] = &["infinite", "gradientsky", "sky"];
 
 /// Factor on the intensity of lights without extent.
 const INTENSITY_SCALE: ParamSpec =
@@ -191,6 +232,24 @@ fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
         Some(total) => color * (scale * total / (reach * color.luminance())),
         None => color * scale,
     }
+}
+
+/// The share of its mean that a sky counts for at least where its ambient term, which is tabulated, says next to nothing.
+const LEAST_REACH: f32 = 0.05;
+
+/// What a sky of this mean radiance sends into a sphere of that radius.
+fn sky_power(mean: f32, radius: f32) -> f32 {
+    4.0 * sqr(PI * radius) * mean
+}
+
+/// Density of directions that are spread evenly over the sphere, 1/sr.
+const UNIFORM: f32 = 0.25 / PI;
+
+/// One of them and its density; `u` in `[0, 1)²`.
+fn uniform_direction(u: Point2) -> (Vector3, f32) {
+    let r = 2.0 * (u.x * (1.0 - u.x)).sqrt();
+    let azimuth = TAU * u.y;
+    (Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - 2.0 * u.x), UNIFORM)
 }
 
 /// The largest component.

@@ -2,15 +2,15 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Point3, Vector3},
+    math::{Normal3, Point3, Vector3},
     sampling::Sampler,
     spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, falloff::Falloff,
-    scaled, track::Anchor,
+    Cone, INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track,
+    falloff::Falloff, scaled, track::Anchor,
 };
 
 /// A point light.
@@ -56,8 +56,19 @@ impl Light for Point {
     fn bound(&self) -> LightBound {
         self.falloff.bound(&self.anchor, self.intensity)
     }
-    fn reach(&self, p: Point3, time: f32) -> f32 {
-        let towards = self.falloff.towards(self.anchor.at(time).0, p);
-        towards.map_or(0.0, |(_, irradiance)| self.intensity.luminance() * irradiance)
+    fn bounds(&self) -> Option<LightBounds> {
+        (self.falloff == Falloff::InverseSquare).then(|| LightBounds {
+            bounds: self.anchor.bounds(),
+            normals: Cone::ALL,
+            end: 0.0,
+            both_sides: false,
+            intensity: self.intensity.luminance(),
+        })
+    }
+    fn reach(&self, p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        self.falloff.reach(self.anchor.at(time).0, p, n) * self.intensity.luminance()
+    }
+    fn power(&self, _radius: f32) -> f32 {
+        4.0 * PI * self.intensity.luminance()
     }
 }

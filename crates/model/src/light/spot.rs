@@ -6,15 +6,18 @@
 use std::f32::consts::{PI, TAU};
 
 use durer_core::{
-    math::{Point3, float::cos},
+    math::{
+        Normal3, Point3,
+        float::{acos, cos},
+    },
     sampling::Sampler,
     spectrum::Color,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBound, LightCx, LightSample, POSITION, POWER, Track, axis, falloff::Falloff,
-    scaled, track::Anchor,
+    INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track, axis,
+    falloff::Falloff, scaled, track::Anchor,
 };
 
 /// A spot light.
@@ -26,6 +29,11 @@ pub struct Spot {
     cos_outer: f32,
     intensity: Color,
     falloff: Falloff,
+}
+
+/// The integral of the share of the intensity over all directions.
+fn solid_angle(cos_inner: f32, cos_outer: f32) -> f32 {
+    TAU * ((1.0 - cos_inner) + 0.5 * (cos_inner - cos_outer))
 }
 
 impl Kind for Spot {
@@ -60,8 +68,8 @@ impl Kind for Spot {
         let inner = (outer - args.float("conedeltaangle")).max(0.0);
         let radians = PI / 180.0;
         let (cos_inner, cos_outer) = (cos(inner * radians), cos(outer * radians));
-        let reach = TAU * ((1.0 - cos_inner) + 0.5 * (cos_inner - cos_outer));
-        let intensity = scaled(args, "I", "power", reach.max(f32::MIN_POSITIVE));
+        let reach = solid_angle(cos_inner, cos_outer).max(f32::MIN_POSITIVE);
+        let intensity = scaled(args, "I", "power", reach);
         let (from, to): (Point3, Point3) = (args.triple("from").into(), args.triple("to").into());
         let anchor = Anchor::new(from, axis(args, from, to)?);
         let falloff = Falloff::from_args(args);
@@ -96,10 +104,21 @@ impl Light for Spot {
     fn bound(&self) -> LightBound {
         self.falloff.bound(&self.anchor, self.intensity)
     }
-    fn reach(&self, p: Point3, time: f32) -> f32 {
-        let (position, axis) = self.anchor.at(time);
-        self.falloff.towards(position, p).map_or(0.0, |(wi, irradiance)| {
-            self.intensity.luminance() * irradiance * self.share(-wi.dot(axis))
+    fn bounds(&self) -> Option<LightBounds> {
+        (self.falloff == Falloff::InverseSquare).then(|| LightBounds {
+            bounds: self.anchor.bounds(),
+            normals: self.anchor.directions(acos(self.cos_outer)),
+            end: 0.0,
+            both_sides: false,
+            intensity: self.intensity.luminance(),
         })
+    }
+    fn reach(&self, p: Point3, n: Option<Normal3>, time: f32) -> f32 {
+        let (position, axis) = self.anchor.at(time);
+        let share = self.falloff.towards(position, p).map_or(0.0, |(wi, _)| self.share(-wi.dot(axis)));
+        self.falloff.reach(position, p, n) * self.intensity.luminance() * share
+    }
+    fn power(&self, _radius: f32) -> f32 {
+        solid_angle(self.cos_inner, self.cos_outer) * self.intensity.luminance()
     }
 }

@@ -4,8 +4,10 @@
 //! is exactly where rays find its shape.
 use durer_core::{
     glam::{DAffine3, DMat3},
-    math::{Point3, Transform, Vector3},
+    math::{Bounds3, Point3, Transform, Vector3},
 };
+
+use super::Cone;
 
 /// The placement of a light in render space, still or moving.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +91,23 @@ impl Anchor {
         match &self.track {
             None => (self.position, self.direction),
             Some(track) => self.moved(&track.at(time)),
+        }
+    }
+    /// A box around it at all times.
+    pub(super) fn bounds(&self) -> Bounds3 {
+        match &self.track {
+            None => Bounds3::around([self.position]),
+            Some(track) => Bounds3::around(track.stations().map(|m| self.moved(m).0)),
+        }
+    }
+    /// All directions within `angle` of the one it points along, at all times.
+    pub(super) fn directions(&self, angle: f32) -> Cone {
+        let still = |m: &DAffine3| m.matrix3 == DMat3::IDENTITY;
+        match &self.track {
+            None => Cone { axis: self.direction, angle },
+            Some(track) if track.stations().all(still) => Cone { axis: self.direction, angle },
+            // Between two directions it may pass any other.
+            Some(_) => Cone::ALL,
         }
     }
     /// The position, if it stands still.

@@ -3,7 +3,6 @@ use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
     math::{Bounds3, Motion, Point3, Vector3},
 };
-use durer_model::light;
 use durer_scene::{CameraDesc, Diagnostics, LightDesc, Location, Node, Params, SceneDesc};
 
 use super::CompileOptions;
@@ -55,17 +54,10 @@ pub(super) fn lights(
     world_from_camera: &DAffine3,
     diagnostics: &mut Diagnostics,
 ) -> Vec<LightDesc> {
-    let supported = |l: &&LightDesc| !light::NOT_YET.contains(&l.node.kind.as_str());
-    let shines = desc.shapes.iter().any(|shape| shape.area_light.is_some());
-    if shines || desc.lights.iter().any(|l| supported(&l)) {
+    if desc.shapes.iter().any(|shape| shape.area_light.is_some()) || !desc.lights.is_empty() {
         return desc.lights.clone();
     }
-    if desc.lights.is_empty() {
-        diagnostics.note(Location::None, "the scene has no light: a neutral studio light was added");
-    } else {
-        let message = "none of the scene's lights is supported yet: a neutral studio light was added";
-        diagnostics.warning(Location::None, message);
-    }
+    diagnostics.note(Location::None, "the scene has no light: a neutral studio light was added");
     let sky = Params::new()
         .rgb("zenith", [0.75, 0.78, 0.82])
         .rgb("horizon", [0.95, 0.95, 0.95])

@@ -8,12 +8,14 @@ use durer_core::{
     math::{Interval, Motion, Transform},
 };
 use durer_model::{
-    light::{self, AREA_LIGHTS, Area, Emission, LIGHTS, Light, Orientation, Track},
+    light::{AREA_LIGHTS, Area, Emission, LIGHTS, Light, Looks, Orientation, Track},
+    material::Material,
     shape::Geometry,
+    texture::Texture,
 };
 use durer_scene::{LightDesc, Node, ShapeDesc, ShapeSource};
 
-use super::nodes::{Builder, warn_not_yet};
+use super::nodes::Builder;
 use crate::Object;
 
 /// The lights of a scene.
@@ -26,20 +28,32 @@ pub(super) struct Lights {
     pub(super) of_shapes: Vec<Option<u32>>,
 }
 
+/// What there is to say of the surfaces of a scene.
+pub(super) struct Surfaces<'a> {
+    pub(super) textures: &'a Arc<[Box<dyn Texture>]>,
+    pub(super) materials: &'a Arc<[Box<dyn Material>]>,
+}
+
+impl Surfaces<'_> {
+    /// The looks of a light of this material.
+    fn of(&self, material: Option<u32>) -> Looks {
+        let has_holes = |m: &u32| self.materials.get(*m as usize).is_some_and(|m| m.has_holes());
+        let holes = material.filter(has_holes).map(|m| (Arc::clone(self.materials), m));
+        Looks { textures: Arc::clone(self.textures), holes }
+    }
+}
+
 impl Builder<'_> {
     /// The lights `described`, and those of the description's shapes, which have become `geometry`.
     pub(super) fn lights(
         &mut self,
         described: &[LightDesc],
-        geometry: &[Option<Geometry>],
+        shining: (&[Option<Geometry>], &Surfaces<'_>),
         render_from_world: &DAffine3,
         shutter: Interval,
     ) -> Lights {
-        let is_not_yet = |desc: &&LightDesc| light::NOT_YET.contains(&desc.node.kind.as_str());
-        let left_out: Vec<&Node> = described.iter().filter(is_not_yet).map(|desc| &desc.node).collect();
-        warn_not_yet("light", "it gives no light", &left_out, self.diagnostics);
         let mut all = Lights { lights: Vec::new(), names: Vec::new(), of_shapes: Vec::new() };
-        for desc in described.iter().filter(|desc| !is_not_yet(desc)) {
+        for desc in described {
             let Some(mut light) = self.build(LIGHTS, "light", &desc.node, &self.desc.textures) else {
                 continue;
             };
@@ -58,6 +72,7 @@ impl Builder<'_> {
                 true => Track::still(motion.at(shutter.min.into())),
                 false => track(&motion),
             });
+            light.place_portal(render_from_world);
             let name = match desc.name.as_str() {
                 "" => format!("{} {}", desc.node.kind, all.lights.len()),
                 name => name.to_owned(),
@@ -65,19 +80,25 @@ impl Builder<'_> {
             all.lights.push(light);
             all.names.push(name);
         }
-        self.shining(geometry, render_from_world, &mut all);
+        self.shining(shining, render_from_world, &mut all);
         all
     }
 
     /// Adds the lights of shapes that shine.
-    fn shining(&mut self, geometry: &[Option<Geometry>], render_from_world: &DAffine3, all: &mut Lights) {
+    fn shining(
+        &mut self,
+        (geometry, surfaces): (&[Option<Geometry>], &Surfaces<'_>),
+        render_from_world: &DAffine3,
+        all: &mut Lights,
+    ) {
         let mut known: HashMap<*const Node, Option<Emission>> = HashMap::new();
         for (index, (shape, built)) in self.desc.shapes.iter().zip(geometry).enumerate() {
             all.of_shapes.push(None);
             let Some(node) = &shape.area_light else { continue };
-            let emission = *known
+            let emission = known
                 .entry(Arc::as_ptr(node))
-                .or_insert_with(|| self.build(AREA_LIGHTS, "area light", node, &self.desc.textures));
+                .or_insert_with(|| self.build(AREA_LIGHTS, "area light", node, &self.desc.textures))
+                .clone();
             let (Some(emission), Some(geometry)) = (emission, self.geometry(shape, built.as_ref())) else {
                 continue;
             };
@@ -89,7 +110,8 @@ impl Builder<'_> {
             match Area::new(&emission, &geometry, track(&motion), orientation) {
                 Ok(light) => {
                     all.of_shapes[index] = Some(all.lights.len() as u32);
-                    all.lights.push(Box::new(light));
+                    let material = shape.material.map(|m| m.index() as u32);
+                    all.lights.push(Box::new(light.with_looks(surfaces.of(material))));
                     all.names.push(Object::name(shape, index));
                 }
                 Err(message) => {

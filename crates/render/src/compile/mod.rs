@@ -11,14 +11,17 @@ mod lights;
 mod nodes;
 mod report;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
-use durer_model::{light::Light, shape::Geometry};
+use durer_model::{light::Light, material::Material, shape::Geometry, texture::Texture};
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Media, MediumStack, Scene, integrator::NOT_YET, media};
+use crate::{Media, MediumStack, Scene, integrator::NOT_YET, light_sampler::LightChooser, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
 pub use nodes::integrator;
@@ -74,6 +77,7 @@ pub fn compile(
     let (shapes, of_shapes) = timed(|| nodes.shapes());
     let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
+    let radius = if bounds.is_empty() { 1.0 } else { 0.5 * bounds.diagonal().length() };
     let camera = camera::chosen(desc, options, nodes.diagnostics)
         .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
     let camera = options.lens.given_to(camera);
@@ -88,10 +92,12 @@ pub fn compile(
     let origin = world_from_camera.translation;
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
-    let lights = nodes.lights(&lights, &shapes, &render_from_world, shutter);
-
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
+    let materials: Arc<[Box<dyn Material>]> = materials.into();
+    let textures: Arc<[Box<dyn Texture>]> = textures.into();
+    let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
+    let lights = nodes.lights(&lights, (&shapes, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,
         render_from_world,
@@ -118,7 +124,8 @@ pub fn compile(
         material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
         lamps: those(|light| !light.surrounds()),
         surroundings: those(|light| light.surrounds()),
-        sources: those(|light| light.is_sampled()),
+        far: those(|light| light.surrounds() || light.is_disk()),
+        chooser: LightChooser::new(&lights, radius),
         lights,
         light_names,
         view,

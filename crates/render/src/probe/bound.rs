@@ -38,7 +38,8 @@ impl Scene {
         let arriving = self.arriving_at_most(gloss)?;
         let cx = SampleCx { scene: self, basis: Basis::Rgb };
         let of_materials: Vec<Sent> = self.materials.iter().map(|m| m.sent(&cx.shade(), &arriving)).collect();
-        let mut most = self.surroundings().map(|light| light.bound().seen).sum::<f32>();
+        let far = self.far.iter().map(|&light| &self.lights[light as usize]);
+        let mut most = far.map(|light| light.bound().seen).sum::<f32>();
         for object in &self.objects {
             let mut sent = of_materials.get(object.material as usize).copied().unwrap_or_default();
             sent.own += object.light.map_or(0.0, |light| self.lights[light as usize].bound().seen);

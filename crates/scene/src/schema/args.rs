@@ -290,6 +290,16 @@ impl<'a> Args<'a> {
         self.found(name, assets.mesh(self.text(name)), "nothing is shown")
     }
 
+    /// The contents of the file that a [`ParamType::File`] names; `None` if they cannot be had, which was then complained
+    /// about.
+    pub fn file(&mut self, name: &str) -> Option<Arc<[u8]>> {
+        let Some((assets, _)) = self.assets else {
+            self.error(name, "no files can be read here");
+            return None;
+        };
+        self.found(name, assets.bytes(self.text(name)), "a placeholder is shown")
+    }
+
     fn found<T>(&mut self, name: &str, asked: Result<T, AssetError>, instead: &str) -> Option<T> {
         let (assets, missing) = self.assets?;
         let error = match asked {

@@ -1,32 +1,41 @@
 //! The shape of a light in its place: which piece, which point of it, with which density.
 //!
-//! A piece is chosen in proportion to its area, by bisection of the sums; what is left of the random number goes on to the
-//! piece, so that strata of the number are strata of the light.
+//! Of several pieces one is chosen by a tree, so that of a lamp of ten thousand triangles the near ones and those that face
+//! the point are asked; what is left of the random number goes on to the piece, so that strata of the number are strata of
+//! the light.
 use std::borrow::Cow;
 
-use durer_core::glam::{DAffine3, DVec3};
+use durer_core::{
+    glam::{DAffine3, DVec3},
+    math::Point3,
+};
 
 use super::{
-    super::Track,
+    super::{LightBounds, LightTree, Track},
+    Sides,
     form::{Form, mesh_corners, mesh_turns},
+    known::{self, Place},
+    looked,
     placed::{Chosen, Placed, choose_triangle, mirrors, triangle_density},
 };
-use crate::shape::Geometry;
+use crate::{shape::Geometry, texture::TextureAt};
 
 /// A shape that shines.
 #[derive(Debug)]
 pub(super) struct Emitter {
+    geometry: Geometry,
     form: Form,
     /// The pieces in their place if they stand still.
     placed: Vec<Placed>,
-    choice: Choice,
+    /// `None` if there is but one.
+    tree: Option<LightTree>,
+    /// What is known of all of it at once, for a radiance of 1.
+    pub(super) known: LightBounds,
     track: Track,
     /// The outside is inside.
     reversed: bool,
     /// The largest product of a coordinate and a coefficient of the placement: what its rounding is measured by.
     magnitude: f64,
-    /// Centre and radius of a sphere around it at all times.
-    sphere: (DVec3, f64),
     /// In square metres, at the first moment.
     pub(super) area: f64,
 }
@@ -36,11 +45,23 @@ impl Emitter {
     ///
     /// # Errors
     /// Why it cannot shine.
-    pub(super) fn new(geometry: &Geometry, track: Track, reversed: bool) -> Result<Self, &'static str> {
+    pub(super) fn new(
+        geometry: &Geometry,
+        track: Track,
+        sides: Sides,
+        reversed: bool,
+    ) -> Result<Self, &'static str> {
         let form = Form::of(geometry).ok_or("an infinite shape cannot be an area light")?;
         let first = track.at(f32::NEG_INFINITY);
         let areas = form.areas(&track);
-        let choice = Choice::of(&areas).ok_or("the shape has no area: it gives no light")?;
+        let total: f64 = areas.iter().sum();
+        if !(total > 0.0 && total.is_finite()) {
+            return Err("the shape has no area: it gives no light");
+        }
+        let place = Place { track: &track, reversed, sides };
+        let pieces = known::pieces(&form, &areas, &place);
+        let known = known::whole(&pieces);
+        let tree = if pieces.len() > 1 { LightTree::new(pieces.into_iter()) } else { None };
         let corners = form.corners();
         let extent = corners.iter().fold(0.0, |extent: f64, p| p.abs().max_element().max(extent));
         let largest = |m: &DAffine3| {
@@ -48,21 +69,28 @@ impl Emitter {
             row(0).max(row(1)).max(row(2))
         };
         let magnitude = track.stations().map(largest).fold(0.0, f64::max);
-        let everywhere = || track.stations().flat_map(|m| corners.map(|p| m.transform_point3(p)));
-        let low = everywhere().fold(DVec3::INFINITY, DVec3::min);
-        let high = everywhere().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let sphere = ((low + high) / 2.0, (high - low).length() / 2.0);
         let area = form.areas_at(&first).sum();
         let placed = match &form {
             Form::Pieces(pieces, _) if track.is_still() => pieces.iter().map(|p| p.placed(&first)).collect(),
             _ => Vec::new(),
         };
-        Ok(Self { form, placed, choice, track, reversed, magnitude, sphere, area })
+        Ok(Self { geometry: geometry.clone(), form, placed, tree, known, track, reversed, magnitude, area })
     }
 
-    /// A point of the light and how far, at most, each coordinate of its shape may be off as rays find it.
-    pub(super) fn choose(&self, from: DVec3, time: f32, u: [f64; 2]) -> Option<(Chosen, f64)> {
-        let (index, rest, share) = self.choice.pick(u[0]);
+    /// How far, at most, each coordinate of the shape may be off as rays find it.
+    pub(super) fn magnitude(&self) -> f64 {
+        self.magnitude
+    }
+
+    /// A point of the light, and which piece or triangle it is on.
+    pub(super) fn choose(&self, from: DVec3, time: f32, u: [f64; 2]) -> Option<(Chosen, usize)> {
+        let (index, rest, share) = match &self.tree {
+            Some(tree) => {
+                let picked = tree.choose(Point3::from_f64(from), None, u[0])?;
+                (picked.index, picked.rest, picked.chance)
+            }
+            None => (0, u[0], 1.0),
+        };
         let u = [rest, u[1]];
         let chosen = match &self.form {
             Form::Pieces(pieces, _) => match self.placed.get(index) {
@@ -78,23 +106,45 @@ impl Emitter {
             }
         };
         let n = if self.reversed { -chosen.n } else { chosen.n };
-        Some((Chosen { n, density: chosen.density * share, ..chosen }, self.magnitude))
+        Some((Chosen { n, density: chosen.density * share, ..chosen }, index))
     }
 
-    /// A cheap estimate of the solid angle in which `from` sees it, less what is turned away; 0 only where it cannot be seen.
-    pub(super) fn size_from(&self, from: DVec3, both_sides: bool) -> f32 {
-        let (center, radius) = self.sphere;
-        let away = from - center;
-        let squared = away.length_squared().max(radius * radius);
-        // What is flat and stands still is seen at an angle.
-        let cos = match self.placed.as_slice() {
-            [flat] => flat.normal().map_or(1.0, |n| {
-                let cos = away.dot(if self.reversed { -n } else { n }) / squared.sqrt();
-                if both_sides { cos.abs() } else { cos.max(0.0) }
-            }),
-            _ => 1.0,
+    /// Where textures are looked up at point `p`, with normal `n`, of a piece or triangle.
+    pub(super) fn texture_at(&self, time: f32, (p, n): (DVec3, DVec3), piece: usize) -> TextureAt {
+        let m = self.track.at(time);
+        let (back, normal) = (m.inverse(), m.matrix3.transpose() * n);
+        let own = (back.transform_point3(p), normal.normalize_or_zero());
+        let at = match (&self.geometry, &self.form) {
+            (Geometry::Mesh(mesh), _) => looked::on_mesh(mesh, piece, own.0, time),
+            (Geometry::Shapes(parts), Form::Pieces(_, starts)) => {
+                let part = starts.partition_point(|start| *start as usize <= piece).saturating_sub(1);
+                looked::on_shape(&*parts[part], own)
+            }
+            (Geometry::Shapes(parts), Form::Mesh(_)) => looked::on_shape(&*parts[piece], own),
         };
-        (self.area * cos / squared) as f32
+        TextureAt { p: Point3::from_f64(p), ..at }
+    }
+
+    /// Points spread over all of it where it first is: `(share of the area, point, normal, piece)`.
+    pub(super) fn spread(&self) -> Vec<(f64, DVec3, DVec3, usize)> {
+        let first = self.track.at(f32::NEG_INFINITY);
+        let areas: Vec<f64> = self.form.areas_at(&first).collect();
+        let mut all = Vec::new();
+        for (index, area) in areas.iter().enumerate() {
+            let share = area / self.area;
+            let count = (share * f64::from(looked::POINTS)).ceil() as u32;
+            for i in 0..count {
+                let (p, n) = looked::point(&self.form, index, looked::place(i));
+                let n = (first.matrix3.inverse().transpose() * n).normalize_or_zero();
+                all.push((share / f64::from(count), first.transform_point3(p), n, index));
+            }
+        }
+        all
+    }
+
+    /// The chance with which a piece is chosen for `from`.
+    fn share(&self, from: DVec3, piece: usize) -> f64 {
+        self.tree.as_ref().map_or(1.0, |tree| tree.chance(Point3::from_f64(from), None, piece))
     }
 
     /// The density with which [`Emitter::choose`] gives the direction of a point of part `part`.
@@ -104,7 +154,7 @@ impl Emitter {
             Form::Mesh(mesh) => {
                 let m = self.track.at(time);
                 let corners = mesh_corners(mesh, part, time).map(|p| m.transform_point3(p));
-                self.choice.share(part) * triangle_density(corners, from, p)
+                self.share(from, part) * triangle_density(corners, from, p)
             }
             Form::Pieces(pieces, starts) => {
                 let m = self.track.at(time);
@@ -116,42 +166,8 @@ impl Emitter {
                 let end = starts.get(part + 1).map_or(pieces.len(), |i| *i as usize);
                 // A flat part of several triangles: the one that holds the point.
                 let index = (first..end).find(|&i| i + 1 == end || placed(i).holds(p)).unwrap_or(first);
-                self.choice.share(index) * placed(index).density(from, p, n)
+                self.share(from, index) * placed(index).density(from, p, n)
             }
         }
-    }
-}
-
-/// Choice in proportion to weights.
-#[derive(Debug)]
-struct Choice {
-    /// Sums of the weights up to and with each; the last is 1.
-    sums: Vec<f64>,
-}
-
-impl Choice {
-    /// `None` if no weight is positive, or their sum is not finite.
-    fn of(weights: &[f64]) -> Option<Self> {
-        let total: f64 = weights.iter().sum();
-        let mut sum = 0.0;
-        let mut upto = |w: &f64| {
-            sum += w;
-            sum / total
-        };
-        (total > 0.0 && total.is_finite()).then(|| Self { sums: weights.iter().map(&mut upto).collect() })
-    }
-    /// The index for `u` in `[0, 1)`, `u` within its share, and the share.
-    fn pick(&self, u: f64) -> (usize, f64, f64) {
-        if self.sums.len() == 1 {
-            return (0, u, 1.0);
-        }
-        let index = self.sums.partition_point(|&sum| sum <= u).min(self.sums.len() - 1);
-        let share = self.share(index);
-        let before = if index == 0 { 0.0 } else { self.sums[index - 1] };
-        (index, ((u - before) / share).clamp(0.0, 1.0 - f64::EPSILON), share)
-    }
-    fn share(&self, index: usize) -> f64 {
-        let upto = |i: usize| self.sums.get(i).copied().unwrap_or(1.0);
-        if index == 0 { upto(0) } else { upto(index) - upto(index - 1) }
     }
 }

@@ -1,11 +1,16 @@
-//! Light from surfaces: every point sends out the same radiance in all directions of its outside.
+//! Light from surfaces: every point sends out the same radiance in all directions of its outside. A texture or a picture may
+//! vary it from point to point, and a hole of the surface does not shine.
 //!
 //! Light is gathered by choosing a point of the surface: spheres by their cone, rectangles and triangles by solid angle,
 //! everything else by area, with `p(direction) = p(area) distance² / cos`. Which of these it is does not change the mean,
-//! only the noise. The power is `pi L A`, twice that if both sides shine.
+//! only the noise. The power is `pi L A`, for a mean radiance `L`, twice that if both sides
+//! shine.
 mod cone;
 mod emitter;
 mod form;
+mod glow;
+mod known;
+mod looked;
 mod piece;
 mod placed;
 mod rectangle;
@@ -20,19 +25,22 @@ use durer_core::{
         error::{gamma, offset_ray_origin},
     },
     sampling::{Dim, Sampler},
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightBound, LightCx, LightHit, LightSample, POWER, Track, largest};
-use crate::{Surface, shape::Geometry};
-use emitter::Emitter;
+use self::{emitter::Emitter, glow::Glow};
+use super::{Light, LightBound, LightBounds, LightCx, LightHit, LightSample, POWER, Track};
+use crate::{Surface, shape::Geometry, texture::TextureAt};
+
+pub use self::glow::{Looks, Materials, Textures};
 
 /// What a surface sends out, before it is known which: the word `diffuse` of `AreaLightSource`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Emission {
-    /// Radiance, or, if `power` is given, its colour.
-    radiance: Color,
+    /// Radiance before `scale`, or, if `power` is given, up to a factor.
+    glow: Glow,
+    scale: f32,
     /// Luminance of the whole power, W.
     power: Option<f32>,
     sides: Sides,
@@ -53,26 +61,28 @@ impl Kind for Emission {
         doc: "The shapes that follow, up to the end of the block, shine from every point of their outside equally in all \
               directions.",
         params: &[
-            ParamSpec::color("L", [1.0; 3], "Radiance.").unit("W/(m² sr)").range(0.0, f32::INFINITY),
+            ParamSpec::color_texture("L", [1.0; 3], "Radiance, which a texture may vary over the surface.")
+                .unit("W/(m² sr)")
+                .range(0.0, f32::INFINITY),
             ParamSpec::float("scale", 1.0, "Factor on the radiance.").range(0.0, f32::INFINITY),
             ParamSpec {
-                doc: "Total power of each shape; replaces the magnitude of L, scale still applies.",
+                doc: "Total power of each shape; replaces the magnitude of the radiance, scale still applies.",
                 ..POWER
             },
             ParamSpec::new("twosided", ParamType::Bool, ParamDefault::Bool(false), "The inside shines too."),
-            ParamSpec::new("filename", ParamType::File, ParamDefault::Unset, "Not supported yet."),
+            ParamSpec::new(
+                "filename",
+                ParamType::File,
+                ParamDefault::Unset,
+                "A picture of the radiance over the surface coordinates, instead of L: floats are linear, integers \
+                 sRGB-encoded.",
+            ),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self> {
-        if args.is_set("filename") {
-            args.warning("filename", "images of area lights are not supported yet: the shape shines evenly");
-        }
         let sides = if args.bool("twosided") { Sides::Both } else { Sides::Outside };
         let power = args.optional_float("power");
-        // The area is not known yet: radiance is that of a power of 1 W from 1 m².
-        let radiance = super::scaled(args, "L", "power", 1.0);
-        let power = power.filter(|power| *power > 0.0);
-        Some(Self { radiance, power, sides })
+        Some(Self { glow: Glow::read(args)?, scale: args.float("scale"), power, sides })
     }
 }
 
@@ -80,8 +90,12 @@ impl Kind for Emission {
 #[derive(Debug)]
 pub struct Area {
     emitter: Emitter,
-    radiance: Color,
-    sides: Sides,
+    emission: Emission,
+    looks: Looks,
+    /// Factor on the radiance of the emission's `glow`.
+    factor: f32,
+    /// Mean luminance over the surface, which counts as black where it has holes.
+    mean: f32,
 }
 
 impl Area {
@@ -95,16 +109,57 @@ impl Area {
         track: Track,
         orientation: Orientation,
     ) -> Result<Self, &'static str> {
-        let emitter = Emitter::new(geometry, track, orientation == Orientation::Reversed)?;
-        let sides = if emission.sides == Sides::Both { 2.0 } else { 1.0 };
-        let factor = emission.power.map_or(1.0, |_| 1.0 / (PI * sides * emitter.area));
-        Ok(Self { emitter, radiance: emission.radiance * factor as f32, sides: emission.sides })
+        let emitter = Emitter::new(geometry, track, emission.sides, orientation == Orientation::Reversed)?;
+        let (emission, looks) = (emission.clone(), Looks::default());
+        Ok(Self { emitter, emission, looks, factor: 1.0, mean: 0.0 }.measured())
+    }
+
+    /// The same with the textures and holes of its shape.
+    #[must_use]
+    pub fn with_looks(self, looks: Looks) -> Self {
+        Self { looks, ..self }.measured()
+    }
+
+    /// The same with what follows from how bright it is all over.
+    fn measured(self) -> Self {
+        let mean = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
+            Some(color) => color.luminance(),
+            None => {
+                let of = |&(share, p, n, piece): &(f64, DVec3, DVec3, usize)| {
+                    let at = self.emitter.texture_at(f32::NEG_INFINITY, (p, n), piece);
+                    share as f32 * self.looks.color(&self.emission.glow, Basis::Rgb, &at).luminance()
+                };
+                self.emitter.spread().iter().map(of).sum()
+            }
+        };
+        let factor = match self.emission.power {
+            None => 1.0,
+            Some(_) if mean <= 0.0 => 0.0,
+            Some(power) => (f64::from(power) / (self.surface() * f64::from(mean))) as f32,
+        };
+        let factor = factor * self.emission.scale;
+        Self { factor, mean: mean * factor, ..self }
+    }
+
+    /// The power of a radiance of 1.
+    fn surface(&self) -> f64 {
+        let sides = if self.emission.sides == Sides::Both { 2.0 } else { 1.0 };
+        PI * sides * self.emitter.area
+    }
+
+    /// The radiance where textures are looked up at `at`.
+    fn radiance(&self, basis: Basis, at: impl FnOnce() -> TextureAt) -> Spectrum {
+        let color = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
+            Some(color) => color,
+            None => self.looks.color(&self.emission.glow, basis, &at()),
+        };
+        basis.emission(color * self.factor)
     }
 
     /// Whether the side on which direction `w` lies shines, where the normal is `n`.
     fn shines(&self, n: DVec3, w: DVec3) -> bool {
         let cos = n.dot(w);
-        cos > 0.0 || self.sides == Sides::Both && cos < 0.0
+        cos > 0.0 || self.emission.sides == Sides::Both && cos < 0.0
     }
 }
 
@@ -125,17 +180,21 @@ impl Light for Area {
     fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let from = p.to_f64();
         let u = sampler.d2(Dim::Light);
-        let (chosen, magnitude) = self.emitter.choose(from, cx.time, [u.x.into(), u.y.into()])?;
+        let (chosen, piece) = self.emitter.choose(from, cx.time, [u.x.into(), u.y.into()])?;
         let towards = chosen.p - from;
         let distance = towards.length();
-        let weight = cx.basis.emission(self.radiance) * (1.0 / chosen.density) as f32;
-        if !self.shines(chosen.n, -towards) || weight.is_black() || distance == 0.0 {
+        if !self.shines(chosen.n, -towards) || distance == 0.0 {
+            return None;
+        }
+        let at = || self.emitter.texture_at(cx.time, (chosen.p, chosen.n), piece);
+        let weight = self.radiance(cx.basis, at) * (1.0 / chosen.density) as f32;
+        if weight.is_black() {
             return None;
         }
         // Shadow rays end before the surface by more than rounding can be wrong: that of the ray, which grows with its
         // length, and that of the placement.
         let rounded = Point3::from_f64(chosen.p);
-        let slack = ((distance + magnitude) as f32) * gamma(8);
+        let slack = ((distance + self.emitter.magnitude()) as f32) * gamma(8);
         let error = (rounded - Point3::ZERO).abs() * gamma(8) + Vector3::splat(slack);
         let back = Vector3::from_f64(-towards);
         let point = offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), back);
@@ -144,11 +203,17 @@ impl Light for Area {
     }
 
     fn bound(&self) -> LightBound {
-        LightBound { seen: largest(self.radiance), ..LightBound::default() }
+        let seen = self.looks.largest(&self.emission.glow) * self.factor;
+        LightBound { seen, ..LightBound::default() }
     }
 
-    fn reach(&self, p: Point3, _time: f32) -> f32 {
-        self.emitter.size_from(p.to_f64(), self.sides == Sides::Both) * self.radiance.luminance()
+    fn bounds(&self) -> Option<LightBounds> {
+        let known = self.emitter.known;
+        Some(LightBounds { intensity: known.intensity * self.mean, ..known })
+    }
+
+    fn power(&self, _radius: f32) -> f32 {
+        self.mean * self.surface() as f32
     }
 
     fn pdf(&self, cx: &LightCx, from: Point3, hit: &LightHit) -> f32 {
@@ -159,9 +224,13 @@ impl Light for Area {
         self.emitter.density(from, cx.time, (p, n, hit.part)) as f32
     }
 
+    fn is_sampled(&self) -> bool {
+        self.mean > 0.0
+    }
+
     fn emitted(&self, basis: Basis, surface: &Surface, wo: Vector3) -> Spectrum {
         let shines = self.shines(surface.n_g.to_f64(), wo.to_f64());
-        if shines { basis.emission(self.radiance) } else { Spectrum::BLACK }
+        if shines { self.radiance(basis, || surface.texture_at()) } else { Spectrum::BLACK }
     }
 }
 

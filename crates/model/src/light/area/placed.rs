@@ -133,16 +133,6 @@ impl Placed {
         }
     }
 
-    /// Unit normal of what is flat, on the outside.
-    pub(super) fn normal(&self) -> Option<DVec3> {
-        let n = match &self.form {
-            Form::Rectangle(rectangle) => rectangle.normal(),
-            Form::Halves([corners, _]) | Form::Triangle(corners) => triangle::normal(*corners)?,
-            Form::Sphere { .. } | Form::Curved(_) => return None,
-        };
-        Some(if self.turned { -n } else { n })
-    }
-
     /// Whether a point of the plane of a triangle lies in it; true for all else.
     pub(super) fn holds(&self, p: DVec3) -> bool {
         let Form::Triangle(corners) = &self.form else { return true };

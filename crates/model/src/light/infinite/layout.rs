@@ -12,7 +12,7 @@ use durer_core::math::{
 
 /// The map between picture and sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layout {
+pub(in super::super) enum Layout {
     /// Azimuth across, angle from the zenith down.
     LatitudeLongitude,
     /// Every texel sees the same solid angle.
@@ -34,7 +34,7 @@ impl Layout {
     }
 
     /// Place in the picture, `(0, 0)` its upper left corner and `(1, 1)` the lower right one, of unit direction `d`.
-    pub(super) fn uv(self, d: Vector3) -> [f32; 2] {
+    pub(in super::super) fn uv(self, d: Vector3) -> [f32; 2] {
         match self {
             Self::LatitudeLongitude => {
                 let azimuth = atan2(d.y, d.x);
@@ -57,7 +57,7 @@ impl Layout {
     }
 
     /// The unit direction of a place in the picture.
-    pub(super) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
+    pub(in super::super) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
         match self {
             Self::LatitudeLongitude => {
                 let (azimuth, from_zenith) = (u * TAU, v * PI);

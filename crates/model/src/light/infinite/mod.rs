@@ -1,22 +1,37 @@
 //! A sky all around: of the same radiance everywhere, or a picture.
 //!
-//! Rays that leave the scene see it; it is its own ambient term and its own glossy reflection, without shadows: tabulated
+//! Rays that leave the scene see it, and paths choose directions of it: evenly, by the picture
+//! (`density.rs`), or through a portal (`portal.rs`). It is its own ambient term and its own glossy reflection, without shadows: tabulated
 //! from the picture (`blur.rs`, `pyramid.rs`). In the light's own space z is up (`layout.rs`).
 mod blur;
+mod density;
 mod layout;
 mod panorama;
+mod portal;
 mod pyramid;
 
-use std::f32::consts::PI;
+use std::{f32::consts::PI, sync::Arc};
 
 use durer_core::{
-    math::{Normal3, Transform, Vector3},
+    glam::DAffine3,
+    math::{Normal3, Point3, Transform, Vector3},
+    sampling::{Dim, Sampler},
     spectrum::{Basis, Color, Spectrum},
 };
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Image, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use self::{blur::Blur, layout::Layout, panorama::Panorama, pyramid::Pyramid};
-use super::{Light, LightBound, Track, largest, scaled};
+pub(super) use self::layout::Layout;
+use self::{
+    blur::Blur,
+    density::Density,
+    panorama::Panorama,
+    portal::{Portal, View},
+    pyramid::Pyramid,
+};
+use super::{
+    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, picture::unfit, scaled,
+    sky_power, uniform_direction,
+};
 
 /// A sky all around.
 #[derive(Debug)]
@@ -24,13 +39,34 @@ pub struct Infinite {
     /// Radiance, or factor on the picture.
     radiance: Color,
     picture: Option<Box<Picture>>,
+    /// In world space.
+    portal: Option<Portal>,
+    /// What is seen through the portal, once it is placed.
+    view: Option<Box<View>>,
 }
 
 #[derive(Debug)]
 struct Picture {
     panorama: Panorama,
     blur: Blur,
+    /// `None` if it is black.
+    density: Option<Density>,
     render_from_light: Transform,
+    /// By how much the placement shrinks volumes: 1 but for those that are no rotations.
+    shrinking: f32,
+}
+
+impl Picture {
+    fn new(panorama: Panorama, pyramid: &Pyramid) -> Self {
+        let blur = Blur::of(pyramid, panorama.size()[1]);
+        let density = Density::of(&panorama);
+        Self { panorama, blur, density, render_from_light: Transform::IDENTITY, shrinking: 1.0 }
+    }
+    /// Density of the unit direction `d` in render space which is `towards`, of any length, in the light's own: the solid
+    /// angle about it grows by `|det M| / |M d|^3`.
+    fn spread(&self, density: f32, towards: Vector3) -> f32 {
+        density * self.shrinking / (towards.length_squared() * towards.length())
+    }
 }
 
 impl Kind for Infinite {
@@ -69,13 +105,17 @@ impl Kind for Infinite {
                 "portal",
                 ParamType::Point3s,
                 ParamDefault::Unset,
-                "Where the light comes in, a help for path tracing: not used yet.",
-            ),
+                "Four corners, in world space, of a rectangular opening through which paths look for the light, a help where \
+                 no light comes in elsewhere; outward is (fourth - first) x (second - first).",
+            )
+            .unit("m"),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let portal = portal(args);
+        let even = |radiance| Self { radiance, picture: None, portal, view: None };
         if !args.is_set("filename") {
-            return Some(Box::new(Self { radiance: scaled(args, "L", "illuminance", PI), picture: None }));
+            return Some(Box::new(even(scaled(args, "L", "illuminance", PI))));
         }
         if args.is_set("L") {
             args.error("L", "a sky has a radiance \"L\" or a picture \"filename\", not both");
@@ -86,9 +126,9 @@ impl Kind for Infinite {
         }
         let Some(image) = image else {
             // The placeholder of a missing picture.
-            return Some(Box::new(Self { radiance: Color::new(1.0, 0.0, 1.0), picture: None }));
+            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0))));
         };
-        if let Some(reason) = panorama::unfit(&image) {
+        if let Some(reason) = unfit(&image) {
             args.error("filename", format!("{}: {reason}", args.text("filename")));
             return None;
         }
@@ -113,13 +153,38 @@ impl Kind for Infinite {
             }
             scale *= wanted / found;
         }
-        let blur = Blur::of(&pyramid, panorama.size()[1]);
-        let picture = Box::new(Picture { panorama, blur, render_from_light: Transform::IDENTITY });
-        Some(Box::new(Self { radiance: Color::gray(scale), picture: Some(picture) }))
+        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        Some(Box::new(Self { picture, ..even(Color::gray(scale)) }))
+    }
+}
+
+/// The parameter `portal`; complains if it is none.
+fn portal(args: &mut Args<'_>) -> Option<Portal> {
+    let corners = args.triples("portal");
+    match Portal::new(&corners).map_err(|reason| args.is_set("portal").then_some(reason)) {
+        Ok(portal) => Some(portal),
+        Err(reason) => {
+            if let Some(reason) = reason {
+                args.error("portal", reason);
+            }
+            None
+        }
     }
 }
 
 impl Infinite {
+    /// A sound picture, times `scale`.
+    pub(super) fn of_picture(image: Arc<Image>, layout: Layout, scale: f32) -> Self {
+        let panorama = Panorama::new(image, layout);
+        let pyramid = Pyramid::of(&panorama);
+        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        Self { radiance: Color::gray(scale), picture, portal: None, view: None }
+    }
+    /// Mean luminance over the sphere.
+    fn mean(&self) -> f32 {
+        let of = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
+        self.radiance.luminance() * self.picture.as_deref().map_or(1.0, of)
+    }
     /// What `look` says of the picture in a direction of render space; the constant radiance if there is none.
     fn emitted(&self, basis: Basis, d: Vector3, look: impl Fn(&Picture, Vector3) -> [f32; 3]) -> Spectrum {
         let Some(picture) = &self.picture else { return basis.emission(self.radiance) };
@@ -131,8 +196,57 @@ impl Infinite {
 impl Light for Infinite {
     fn place(&mut self, track: &Track) {
         if let Some(picture) = &mut self.picture {
-            picture.render_from_light = Transform::from_f64(&track.at(f32::NEG_INFINITY));
+            let placement = track.at(f32::NEG_INFINITY);
+            picture.render_from_light = Transform::from_f64(&placement);
+            picture.shrinking = (1.0 / placement.matrix3.determinant().abs()) as f32;
         }
+    }
+    fn place_portal(&mut self, render_from_world: &DAffine3) {
+        let view = self.portal.filter(|_| self.is_sampled()).map(|portal| {
+            let sky = |d| Color { rgb: Basis::Rgb.to_rgb(self.escaped(Basis::Rgb, d)) }.luminance();
+            Box::new(View::new(portal.placed(render_from_world), sky))
+        });
+        self.view = view;
+    }
+    fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
+        let u = sampler.d2(Dim::Light);
+        let through = self.view.as_ref().and_then(|view| view.draw(p, [u.x, u.y]));
+        let (wi, pdf) = match (through, &self.picture) {
+            (Some(drawn), _) => drawn,
+            (None, None) => uniform_direction(u),
+            (None, Some(picture)) => {
+                let (d, pdf) = picture.density.as_ref()?.draw([u.x, u.y]);
+                let wi = picture.render_from_light.vector(d).normalize();
+                (wi, picture.spread(pdf, picture.render_from_light.inverse().vector(wi)))
+            }
+        };
+        let weight = self.escaped(cx.basis, wi) / pdf;
+        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
+    }
+    fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
+        let mean = self.mean();
+        match n {
+            Some(n) if self.picture.is_some() => {
+                PI * self.ambient(Basis::Rgb, n).mean().max(LEAST_REACH * mean)
+            }
+            _ => PI * mean,
+        }
+    }
+    fn power(&self, radius: f32) -> f32 {
+        sky_power(self.mean(), radius)
+    }
+    fn is_sampled(&self) -> bool {
+        let shines = |picture: &Picture| picture.density.is_some();
+        self.radiance.luminance() > 0.0 && self.picture.as_deref().is_none_or(shines)
+    }
+    fn pdf_escaped(&self, _cx: &LightCx, from: Point3, d: Vector3) -> f32 {
+        if let Some(pdf) = self.view.as_ref().and_then(|view| view.at(from, d)) {
+            return pdf;
+        }
+        let Some(picture) = &self.picture else { return UNIFORM };
+        let towards = picture.render_from_light.inverse().vector(d);
+        let density = picture.density.as_ref().map_or(0.0, |density| density.at(towards.normalize()));
+        picture.spread(density, towards)
     }
     fn surrounds(&self) -> bool {
         true

@@ -15,28 +15,6 @@ pub(super) struct Panorama {
     layout: Layout,
 }
 
-/// Why a picture is no light.
-pub(super) fn unfit(image: &Image) -> Option<String> {
-    let stored = u64::from(image.width) * u64::from(image.height) * u64::from(image.channels);
-    let values = match &image.data {
-        ImageData::U8(v) => v.len(),
-        ImageData::U16(v) => v.len(),
-        ImageData::F32(v) => v.len(),
-    };
-    if stored == 0 || image.channels > 4 || stored != values as u64 {
-        return Some(format!("the image is not sound: {values} values for {stored}"));
-    }
-    let ImageData::F32(values) = &image.data else { return None };
-    let channels = image.channels as usize;
-    let colors = if channels.is_multiple_of(2) { channels - 1 } else { channels };
-    let is_bad = |p: &&[f32]| p.iter().take(colors).any(|v| !v.is_finite());
-    let bad = values.par_chunks(channels).filter(is_bad).count();
-    (bad > 0).then(|| {
-        let pixels = if bad == 1 { "pixel is".to_owned() } else { "pixels are".to_owned() };
-        format!("{bad} {pixels} infinite or not a number: the picture cannot be a light")
-    })
-}
-
 impl Panorama {
     /// The picture. Integer values are sRGB-encoded, floats linear; alpha is not looked at.
     pub(super) fn new(image: Arc<Image>, layout: Layout) -> Self {

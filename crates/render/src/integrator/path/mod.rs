@@ -41,7 +41,7 @@ impl Course {
     const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
         "lightsampler",
         ParamType::Choice(&LightSampler::WORDS),
-        ParamDefault::Text("uniform"),
+        ParamDefault::Text("tree"),
         "How the light is chosen that a hit asks: each as often, by power, or by what it may send there.",
     );
 
