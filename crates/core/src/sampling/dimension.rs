@@ -17,6 +17,10 @@ pub enum Dim {
     Scatter,
     /// Which light.
     LightChoice,
+    /// Which lobe scatters.
+    Lobe,
+    /// Whether the path goes on.
+    Roulette,
 }
 
 impl Dim {
@@ -29,6 +33,8 @@ impl Dim {
             Self::Light => "light",
             Self::Scatter => "scatter",
             Self::LightChoice => "light-choice",
+            Self::Lobe => "lobe",
+            Self::Roulette => "roulette",
         }
     }
 }
