@@ -7,7 +7,7 @@ mod area;
 mod distant;
 mod falloff;
 mod gradient_sky;
-mod infinite;
+pub(crate) mod infinite;
 mod point;
 mod sky_blur;
 mod spot;

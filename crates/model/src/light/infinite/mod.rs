@@ -3,7 +3,7 @@
 //! Rays that leave the scene see it; it is its own ambient term and its own glossy reflection, without shadows: tabulated
 //! from the picture (`blur.rs`, `pyramid.rs`). In the light's own space z is up (`layout.rs`).
 mod blur;
-mod layout;
+pub(crate) mod layout;
 mod panorama;
 mod pyramid;
 
