@@ -11,6 +11,20 @@ pub enum LightSampler {
     Uniform,
 }
 
+impl LightSampler {
+    /// All words, in the order of the variants.
+    pub const WORDS: [&'static str; 1] = ["uniform"];
+
+    /// The word in files and on the command line.
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
+    }
+    /// The variant of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Uniform].into_iter().find(|by| by.word() == word)
+    }
+}
+
 /// Where light is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lit {

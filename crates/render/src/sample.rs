@@ -6,7 +6,7 @@ use durer_core::{
 };
 use durer_model::ShadeCx;
 
-use crate::{Imbalances, MediumStack, Scene};
+use crate::{Imbalances, Lit, MediumStack, Scene};
 
 /// What every function of light transport needs; the first argument everywhere.
 #[derive(Clone, Copy)]
@@ -42,6 +42,12 @@ pub struct PathRay {
     /// The density of all draws together of the lobe that the direction was drawn from, 1/sr, which weighs a light that is
     /// met against sampling the light; `None` where there was no choice.
     pub density: Option<f32>,
+    /// Where lights were asked that the ray may meet.
+    pub lit: Lit,
+    /// What became of radiance by the index of refraction, from the eye to here; see [`durer_model::bsdf::Scattered::compression`].
+    pub compression: f32,
+    /// Some bounce before was blurred.
+    pub is_blurred: bool,
     /// The point of a surface that the ray leaves; rounding errors before its origin, on the way all the same. The origin
     /// if it leaves none.
     pub from: Point3,
@@ -64,6 +70,9 @@ impl PathRay {
             sampler,
             siblings: 1.0,
             density: None,
+            lit: Lit { p: ray.o, n: None, time: ray.time },
+            compression: 1.0,
+            is_blurred: false,
             from: ray.o,
             media: MediumStack::default(),
             walked: 0.0,
@@ -81,10 +90,12 @@ impl PathRay {
             sampler: self.sampler.fork(branch),
             siblings: self.siblings,
             density: None,
+            lit: Lit { p: from, n: None, time: ray.time },
             from,
             media: self.media,
             walked: 0.0,
             passed: 0,
+            ..*self
         }
     }
     /// The continuation behind a surface that is not there, `walked` metres from where this one started: no bounce, and

@@ -97,6 +97,8 @@ pub struct Scene {
     pub(crate) movers: Vec<PlacedShape>,
     /// What fills transparent bodies.
     pub media: Media,
+    /// Whether light goes straight on through anything. PERF: asked by every shadow ray of a path.
+    pub(crate) is_passed: bool,
     /// The bodies that the camera is in.
     pub start: MediumStack,
 }

@@ -17,9 +17,9 @@ pub enum Dim {
     Scatter,
     /// Which light.
     LightChoice,
-    /// Which lobe scatters.
+    /// Which of the ways in which a surface scatters.
     Lobe,
-    /// Whether the path goes on.
+    /// Whether a path goes on.
     Roulette,
 }
 

@@ -6,7 +6,9 @@ mod hash;
 mod sampler;
 mod sobol;
 mod strata;
+mod warp;
 
 pub use density::LinearDensity;
 pub use dimension::Dim;
 pub use sampler::{Sampler, SamplerKind};
+pub use warp::{concentric_disk, cosine_hemisphere};

@@ -10,7 +10,10 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Branch, BranchKind, Branches, Drawn, Draws, Interface, ggx, gloss, lobe::mirrored, refract};
+use super::{
+    Branch, BranchKind, Branches, Drawn, Draws, Interface, ggx, gloss, lobe::mirrored, refract,
+    scatter::OfLobe,
+};
 
 /// Indices that differ by less are equal: floats are too coarse for the microfacet normal between directions so close.
 const MATCHED: f32 = 1e-4;
@@ -153,6 +156,52 @@ impl Blurred {
             down.filter(|(down, _)| down.z >= 0.0).map(branch(BranchKind::Transmission)),
         ];
         lost.map(|branch| branch.filter(|b| !b.weight.is_black()))
+    }
+
+    /// One of the two directions, chosen by their shares.
+    pub(super) fn scatter(&self, wo: Vector3, choice: f32, u: Point2) -> Option<OfLobe> {
+        let (o, _, eta) = self.upright(wo, wo);
+        let mut sharp = Branches::default();
+        self.add_sharp_branches(wo, &mut sharp);
+        let cos = match self.blur {
+            _ if o.z == 0.0 => return None,
+            Blur::Microfacet { .. } if self.is_matched() => return OfLobe::sharp(&sharp, choice),
+            Blur::Microfacet { alpha } => o.dot(ggx::visible_normal(o, alpha, u)),
+            Blur::Cosine { .. } => o.z,
+        };
+        let reflected = self.reflected_share(cos, eta);
+        let (kind, chance) = match choice < reflected {
+            true => (BranchKind::Reflection, reflected),
+            false => (BranchKind::Transmission, 1.0 - reflected),
+        };
+        let mut draws = Draws::default();
+        self.draw(wo, u, &mut draws);
+        let drawn = draws.iter().map(|d| (d.branch, Some(d.pdf * chance)));
+        let mut all = drawn.chain(sharp.iter().map(|b| (*b, None)));
+        let (branch, pdf) = all.find(|(branch, _)| branch.kind == kind)?;
+        Some(OfLobe { kind, wi: branch.wi, weight: branch.weight / chance, pdf, chance })
+    }
+
+    /// Density of [`Blurred::scatter`] at `wi`, 1/sr; 0 on a side where directions are perfectly sharp.
+    pub(super) fn density(&self, wo: Vector3, wi: Vector3) -> f32 {
+        let pdf = self.pdf(wo, wi);
+        if pdf == 0.0 {
+            return 0.0;
+        }
+        let (o, i, eta) = self.upright(wo, wi);
+        let cos = match self.blur {
+            Blur::Cosine { .. } => o.z,
+            Blur::Microfacet { .. } => half_vector(o, i, eta).map_or(0.0, |h| o.dot(h)),
+        };
+        let reflected = self.reflected_share(cos, eta);
+        pdf * if i.z > 0.0 { reflected } else { 1.0 - reflected }
+    }
+
+    /// Of what leaves at a cosine of incidence, the share that is reflected.
+    fn reflected_share(&self, cos: f32, eta: f32) -> f32 {
+        let (reflection, transmission) = self.interface.shares(cos.clamp(0.0, 1.0), eta);
+        let (r, t) = (reflection.mean(), transmission.mean());
+        if r + t > 0.0 { r / (r + t) } else { 0.0 }
     }
 
     fn add(&self, wo: Vector3, branch: Branch, draws: &mut Draws) {

@@ -7,9 +7,11 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Vector3, float::pow},
+    math::{Point2, Vector3, float::pow},
     spectrum::Spectrum,
 };
+
+use super::gloss;
 
 /// Smallest cosine the lobe divides by; below it the light has set. `f` stays finite for weights up to 1e6.
 const MIN_COSINE: f32 = 1e-30;
@@ -24,6 +26,24 @@ pub struct Highlight {
 }
 
 impl Highlight {
+    /// A direction whose half vector lies at a point of the unit square, spread by the same power; `None` if that leads
+    /// into the surface.
+    pub(super) fn draw(&self, wo: Vector3, u: Point2) -> Option<Vector3> {
+        let up = Vector3::new(0.0, 0.0, if wo.z < 0.0 { -1.0 } else { 1.0 });
+        let h = gloss::draw(up, self.exponent, u);
+        let wi = h * (2.0 * wo.dot(h)) - wo;
+        (wo.dot(h) > 0.0 && wi.z * wo.z > 0.0).then_some(wi)
+    }
+    /// Density of [`Highlight::draw`] at `wi`, 1/sr.
+    pub(super) fn pdf(&self, wo: Vector3, wi: Vector3) -> f32 {
+        let h = wo + wi;
+        if wo.z * wi.z <= 0.0 || h.length_squared() == 0.0 {
+            return 0.0;
+        }
+        let h = h.normalize();
+        let up = Vector3::new(0.0, 0.0, if wo.z < 0.0 { -1.0 } else { 1.0 });
+        gloss::pdf(up, self.exponent, h) / (4.0 * wo.dot(h))
+    }
     /// Value without the cosine, 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         let h = wo + wi;

@@ -67,6 +67,11 @@ impl Interface {
             None => {}
         }
     }
+    /// Share of light that arrives at the end of `wo`, from both directions together.
+    pub(super) fn strength(&self, wo: Vector3) -> f32 {
+        let (reflection, transmission) = self.shares(wo.z.abs(), self.eta_seen(wo));
+        reflection.mean() + transmission.mean()
+    }
     fn transmits(&self) -> bool {
         !matches!(self.split, Split::Constant { transmission, .. } if transmission.is_black())
     }

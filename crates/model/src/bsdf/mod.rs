@@ -18,6 +18,7 @@ mod highlight;
 mod interface;
 mod lobe;
 mod refract;
+mod scatter;
 mod straight;
 mod view;
 
@@ -37,6 +38,7 @@ pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use lobe::Lobe;
 pub use refract::{reflect, refract};
+pub use scatter::Scattered;
 pub use straight::Straight;
 pub use view::{FresnelView, LobeView, LostDraw};
 

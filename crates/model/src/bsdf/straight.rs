@@ -15,6 +15,8 @@ pub enum Straight {
     Tinted,
     /// The same, times the share that is not reflected.
     Fresnel,
+    /// Nothing that bends or spreads light lets any pass: what is left really takes the straight line.
+    Clear,
 }
 
 impl Bsdf {
@@ -28,6 +30,7 @@ impl Bsdf {
 impl Lobe {
     fn straight(&self, wo: Vector3, how: Straight) -> Spectrum {
         match self {
+            Self::Interface(_) | Self::Blurred(_) if how == Straight::Clear => Spectrum::BLACK,
             Self::Interface(interface) => interface.straight(wo, how),
             Self::Blurred(blurred) => blurred.interface.straight(wo, how),
             Self::PassThrough { weight } => *weight,
@@ -45,7 +48,7 @@ impl Interface {
     fn straight(&self, wo: Vector3, how: Straight) -> Spectrum {
         let (Split::Fresnel { transmission, .. } | Split::Constant { transmission, .. }) = self.split;
         match how {
-            Straight::Tinted => transmission,
+            Straight::Tinted | Straight::Clear => transmission,
             Straight::Fresnel => {
                 let from_thinner = self.eta.max(1.0 / self.eta);
                 transmission * (1.0 - fresnel_dielectric(wo.z.abs().min(1.0), from_thinner))

@@ -40,6 +40,10 @@ pub trait Material: Debug + Send + Sync {
     fn has_holes(&self) -> bool {
         false
     }
+    /// True if light may go straight on through some points of the surface that are no holes.
+    fn is_passed(&self) -> bool {
+        false
+    }
     /// True if the surface is not seen from behind: rays pass, but those to lights do not.
     fn is_one_sided(&self) -> bool {
         false

@@ -226,6 +226,9 @@ impl Material for Principled {
             AlphaMode::Blend => self.alpha(cx, at) <= 0.0,
         }
     }
+    fn is_passed(&self) -> bool {
+        self.mode == AlphaMode::Blend || self.transmission != FloatInput::Constant(0.0)
+    }
     fn is_one_sided(&self) -> bool {
         self.one_sided
     }

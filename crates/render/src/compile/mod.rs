@@ -126,6 +126,9 @@ pub fn compile(
         shapes: placed.shapes,
         movers: placed.movers,
         media: Media::new(&materials),
+        is_passed: materials
+            .iter()
+            .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
         start: MediumStack::default(),
         materials,
     };

@@ -5,6 +5,7 @@
 
 mod cast;
 mod distributed;
+mod path;
 mod shading;
 mod walk;
 mod whitted;
@@ -18,6 +19,7 @@ use crate::{
 
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
+pub use path::{Direct, Path};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -124,8 +126,13 @@ impl<T: Transport> Integrator for T {
 }
 
 /// All integrators.
-pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] =
-    &[Entry::of::<Whitted>(), Entry::of::<Distributed>(), Entry::of::<Cast>()];
+pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
+    Entry::of::<Whitted>(),
+    Entry::of::<Distributed>(),
+    Entry::of::<Path>(),
+    Entry::of::<Direct>(),
+    Entry::of::<Cast>(),
+];
 
 /// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] = &[
@@ -134,10 +141,8 @@ pub const NOT_YET: &[&str] = &[
     "function",
     "lightpath",
     "mlt",
-    "path",
     "randomwalk",
     "simplepath",
     "simplevolpath",
     "sppm",
-    "volpath",
 ];

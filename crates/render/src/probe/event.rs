@@ -114,6 +114,8 @@ pub struct Choice {
     pub mis: Option<f32>,
     /// Probability with which this light was chosen among all, above 0 up to 1; 1 where there was no choice.
     pub chance: f32,
+    /// Probability with which chance let the ray live (Russian roulette); 1 where it was not asked.
+    pub kept: f32,
     /// The number that chose the light.
     pub light_choice: Option<RandomNumbers>,
     /// How many rays share this one's place.
@@ -134,6 +136,7 @@ impl Choice {
             other_pdf: None,
             mis: None,
             chance: 1.0,
+            kept: 1.0,
             light_choice: None,
             rays: 1,
             random: None,

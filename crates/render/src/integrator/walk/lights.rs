@@ -139,8 +139,8 @@ impl<P: Probe> Walk<'_, P> {
     pub(super) fn lamp_density(&self, ray: &PathRay, s: &Shading, lamp: &Lamp) -> f32 {
         let chance = match self.rules.lights {
             Lights::All => 1.0,
-            Lights::One => self.cx.scene.lamp_chance(lamp.light as usize, ray.from, ray.ray.time),
+            Lights::One => self.cx.scene.lamp_chance(lamp.light as usize, ray.lit.p, ray.ray.time),
         };
-        self.light_density(s.lamp_pdf(self.cx, lamp, ray.from) * chance)
+        self.light_density(s.lamp_pdf(self.cx, lamp, ray.lit.p) * chance)
     }
 }

@@ -13,7 +13,7 @@ use crate::{
 
 impl<P: Probe> Walk<'_, P> {
     /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
-    pub(super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
+    pub(in super::super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
         let imbalances = &mut self.imbalances;
         let complain = |object, imbalance| match imbalance {
             Imbalance::LeftUnentered => imbalances.add(object),
@@ -24,7 +24,13 @@ impl<P: Probe> Walk<'_, P> {
 
     /// The share of light that is left of a ray in these bodies on its way from the surface point `from` to its parameter
     /// `t`.
-    pub(super) fn arriving(&self, bodies: &MediumStack, from: Point3, ray: &Ray, t: f32) -> Spectrum {
+    pub(in super::super) fn arriving(
+        &self,
+        bodies: &MediumStack,
+        from: Point3,
+        ray: &Ray,
+        t: f32,
+    ) -> Spectrum {
         let media = &self.cx.scene.media;
         let present = bodies.present(media).medium.map(|id| media.get(id));
         match present.filter(|medium| medium.absorbs()) {

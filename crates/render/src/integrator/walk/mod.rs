@@ -25,7 +25,7 @@ use crate::{
     probe::{Probe, RayKind, StopReason, TreeNode},
 };
 
-use report::Parts;
+pub(super) use report::Parts;
 pub(super) use rules::Rules;
 pub use rules::{Lights, Shadows};
 
@@ -87,7 +87,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         radiance
     }
 
-    fn reason_to_stop(&self, ray: &PathRay) -> Option<StopReason> {
+    pub(super) fn reason_to_stop(&self, ray: &PathRay) -> Option<StopReason> {
         if ray.depth > self.rules.max_depth || ray.passed > MOST_PASSED {
             Some(StopReason::DepthLimit)
         } else if ray.depth > 0 && ray.throughput.max() * ray.siblings <= self.rules.min_contribution {

@@ -22,16 +22,31 @@ use crate::{
 };
 
 /// What of a hit's radiance comes from no other ray, and what is left of it on the way.
-pub(super) struct Parts {
-    pub(super) arrived: Spectrum,
-    pub(super) emission: Spectrum,
-    pub(super) ambient: Spectrum,
-    pub(super) blurred_sky: Spectrum,
+pub(in super::super) struct Parts {
+    pub(in super::super) arrived: Spectrum,
+    pub(in super::super) emission: Spectrum,
+    pub(in super::super) ambient: Spectrum,
+    pub(in super::super) blurred_sky: Spectrum,
 }
 
 impl<P: Probe> Walk<'_, P> {
     /// The surface as it scatters, and whether sampling lights could have found the one that was hit.
     pub(super) fn report_hit(
+        &mut self,
+        ray: &PathRay,
+        (s, crossing): (&Shading, &Crossing),
+        parts: &Parts,
+        id: P::Id,
+    ) {
+        self.report_shaded(ray, (s, crossing), parts, id);
+        if let (Some(lamp), Some(density)) = (&s.lamp, ray.density) {
+            let sampled = self.lamp_density(ray, s, lamp);
+            self.probe.met_light(id, sampled, density / (density + sampled));
+        }
+    }
+
+    /// The surface as it scatters.
+    pub(in super::super) fn report_shaded(
         &mut self,
         ray: &PathRay,
         (s, crossing): (&Shading, &Crossing),
@@ -51,14 +66,16 @@ impl<P: Probe> Walk<'_, P> {
                 blurred_sky: parts.blurred_sky,
             },
         );
-        if let (Some(lamp), Some(density)) = (&s.lamp, ray.density) {
-            let sampled = self.lamp_density(ray, s, lamp);
-            self.probe.met_light(id, sampled, density / (density + sampled));
-        }
     }
 
     /// A surface that is not there for the ray: what it is in changes, though not what fills the place.
-    pub(super) fn report_passed(&mut self, ray: &PathRay, crossing: &Crossing, arrived: Spectrum, id: P::Id) {
+    pub(in super::super) fn report_passed(
+        &mut self,
+        ray: &PathRay,
+        crossing: &Crossing,
+        arrived: Spectrum,
+        id: P::Id,
+    ) {
         let nothing = Bsdf::default();
         self.probe.shaded(
             id,
@@ -76,7 +93,7 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// The bound that ended a ray.
-    pub(super) fn report_limit(&mut self, ray: &PathRay, reason: StopReason, id: P::Id) {
+    pub(in super::super) fn report_limit(&mut self, ray: &PathRay, reason: StopReason, id: P::Id) {
         let rules = self.rules;
         let limit = match reason {
             StopReason::DepthLimit if ray.depth > rules.max_depth => {
@@ -99,6 +116,7 @@ impl<P: Probe> Walk<'_, P> {
         let mut choice = Choice {
             by: ChosenBy::Light,
             chance,
+            kept: 1.0,
             light_choice: aim.u.map(|u| RandomNumbers::one(Dim::LightChoice, u)),
             lobe: None,
             f: Some(f),
@@ -193,6 +211,7 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.chosen(&Choice {
             by: ChosenBy::Lobe,
             chance: 1.0,
+            kept: 1.0,
             light_choice: None,
             lobe: lobe.map(|(_, lobe)| lobe.name()),
             f: (cos > 0.0).then(|| drawn.branch.weight * (drawn.pdf / cos)),

@@ -13,8 +13,8 @@ pub(in super::super) struct Rules {
     pub(in super::super) max_depth: u32,
     /// A branch whose share in the pixel is at or below this is not traced.
     pub(in super::super) min_contribution: f32,
-    /// What transparent things do to shadow rays.
-    pub(in super::super) shadows: Shadows,
+    /// How shadow rays pass transparent things; `None` if they do not.
+    pub(in super::super) straight: Option<Straight>,
     /// Metres at which nothing is left of a mirrored or refracted ray; infinite if they do not fade.
     pub(in super::super) attenuation_distance: f32,
     /// Shadow rays to each light with extent; 0: one to its middle.
@@ -74,7 +74,7 @@ impl Shadows {
         [Self::Opaque, Self::Tinted, Self::Fresnel].into_iter().find(|s| s.word() == word)
     }
     /// How surfaces are passed; `None` if they are not.
-    pub(super) fn straight(self) -> Option<Straight> {
+    fn straight(self) -> Option<Straight> {
         match self {
             Self::Opaque => None,
             Self::Tinted => Some(Straight::Tinted),
@@ -84,6 +84,16 @@ impl Shadows {
 }
 
 impl Rules {
+    /// Those of paths, which end by depth and by chance only: light goes straight through what nothing bends.
+    pub(in super::super) const PATH: Self = Self {
+        max_depth: 5,
+        min_contribution: 0.0,
+        straight: Some(Straight::Clear),
+        attenuation_distance: f32::INFINITY,
+        shadow_rays: 1,
+        lights: Lights::One,
+        gloss_rays: NonZeroU32::new(1),
+    };
     /// The parameter of [`Rules::max_depth`].
     pub(in super::super) const MAX_DEPTH: ParamSpec =
         ParamSpec::new("maxdepth", ParamType::Int, ParamDefault::Int(10), "Bounces traced at most.")
@@ -118,7 +128,7 @@ impl Rules {
         Self {
             max_depth: args.int(Self::MAX_DEPTH.name) as u32,
             min_contribution: args.float(Self::MIN_CONTRIBUTION.name),
-            shadows: Shadows::from_word(args.text(Self::SHADOWS.name)).unwrap_or_default(),
+            straight: Shadows::from_word(args.text(Self::SHADOWS.name)).unwrap_or_default().straight(),
             attenuation_distance: args
                 .optional_float(Self::ATTENUATION_DISTANCE.name)
                 .unwrap_or(f32::INFINITY),

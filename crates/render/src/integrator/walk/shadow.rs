@@ -29,7 +29,7 @@ struct Passage {
 
 impl<P: Probe> Walk<'_, P> {
     /// Sends the shadow ray; the light that arrives.
-    pub(super) fn shadow(
+    pub(in super::super) fn shadow(
         &mut self,
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
@@ -43,7 +43,7 @@ impl<P: Probe> Walk<'_, P> {
     }
 
     /// The ray to a light.
-    pub(super) fn shadow_path(
+    pub(in super::super) fn shadow_path(
         &self,
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
@@ -59,7 +59,7 @@ impl<P: Probe> Walk<'_, P> {
         PathRay { media, ..parent.child((s.surface.p, ray), weight, LIGHT_BRANCH + light as u32) }
     }
     /// Sends a shadow ray to a light at a point, or infinitely far away, which sends `unoccluded`; the light that arrives.
-    pub(super) fn send_shadow(
+    pub(in super::super) fn send_shadow(
         &mut self,
         path: &PathRay,
         light: u32,
@@ -68,7 +68,7 @@ impl<P: Probe> Walk<'_, P> {
     ) -> Spectrum {
         let shadow = self.probe.ray(id, path, RayKind::Shadow);
         self.rays += 1;
-        let passage = match self.rules.shadows.straight() {
+        let passage = match self.straight() {
             Some(how) => self.passage(path, point, how, shadow),
             None => self.free_passage(path, shadow),
         };
@@ -83,6 +83,11 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.stop(shadow, reason, Spectrum::BLACK);
         self.probe.result(shadow, arriving);
         arriving
+    }
+
+    /// How surfaces are passed; `None` if all of them block light, or there is none to be passed.
+    fn straight(&self) -> Option<Straight> {
+        self.rules.straight.filter(|how| *how != Straight::Clear || self.cx.scene.is_passed)
     }
 
     /// The way to a light that everything blocks; in a body that absorbs, its length counts all the same.

@@ -1,0 +1,59 @@
+//! From the unit square to where samples are wanted, keeping what lies together together.
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use crate::math::{
+    Point2, Vector3,
+    float::{cos, sin, sqr},
+};
+
+/// The point of the unit disk for a point of the unit square: squares become rings (Shirley and Chiu 1997, "A Low
+/// Distortion Map Between Disk and Square").
+#[inline]
+pub fn concentric_disk(u: Point2) -> [f32; 2] {
+    let (x, y) = (2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
+    if x == 0.0 && y == 0.0 {
+        return [0.0, 0.0];
+    }
+    let (r, phi) = match x.abs() > y.abs() {
+        true => (x, FRAC_PI_4 * (y / x)),
+        false => (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)),
+    };
+    [r * cos(phi), r * sin(phi)]
+}
+
+/// The unit direction about +z for a point of the unit square, with density `z / pi`.
+#[inline]
+pub fn cosine_hemisphere(u: Point2) -> Vector3 {
+    let [x, y] = concentric_disk(u);
+    // At the rim rounding leaves nothing: a direction in the surface has no density.
+    let z = (1.0 - sqr(x) - sqr(y)).max(f32::MIN_POSITIVE).sqrt();
+    Vector3::new(x, y, z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_areas_stay_equal_and_cosines_have_their_mean() {
+        let n = 256;
+        let at = |i: u32| (i as f32 + 0.5) / n as f32;
+        let all = (0..n * n).map(|i| Point2::new(at(i % n), at(i / n)));
+        let (mut inner, mut right, mut cosines) = (0, 0, 0.0f64);
+        for u in all {
+            let [x, y] = concentric_disk(u);
+            assert!(x * x + y * y <= 1.0 + 1e-6);
+            inner += u32::from(x * x + y * y < 0.25);
+            right += u32::from(x > 0.5);
+            let w = cosine_hemisphere(u);
+            assert!((w.length() - 1.0).abs() < 1e-6 && w.z > 0.0);
+            cosines += f64::from(w.z);
+        }
+        let share = |count: u32| f64::from(count) / f64::from(n * n);
+        assert!((share(inner) - 0.25).abs() < 1e-3, "{}", share(inner));
+        // The part of the disk beyond x = 1/2: (pi/3 - sqrt(3)/4) / pi.
+        assert!((share(right) - 0.195_501).abs() < 1e-3, "{}", share(right));
+        // The mean cosine under a density proportional to the cosine is 2/3.
+        assert!((cosines / f64::from(n * n) - 2.0 / 3.0).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,246 @@
+//! The way of one path, hit by hit.
+//!
+//! A path is followed without recursion, and its radiance summed from the far end to the eye, as the recorder folds it.
+use durer_accel::Hit;
+use durer_core::{math::Ray, sampling::Dim, spectrum::Spectrum};
+use durer_model::bsdf::{BranchKind, Scattered};
+
+use super::{
+    super::{
+        shading::Shading,
+        walk::{Parts, Walk},
+    },
+    Course,
+};
+use crate::{
+    Contribution, Lit, PathRay, SampleCx, Value,
+    media::{Boundary, Crossing},
+    probe::{Probe, RayKind, StopReason, TreeNode},
+};
+
+/// Hits that are summed at once. Longer paths are summed in parts, the last first.
+const CHAIN: usize = 16;
+/// Scattered rays use this branch of the sampler, those that go straight on the next: each bounce has numbers of its own.
+pub(super) const SCATTER_BRANCH: u32 = 1 << 15;
+
+/// A hit of a path.
+struct Link<Id> {
+    id: Id,
+    /// All that arrives there but by the next ray.
+    radiance: Spectrum,
+    /// What the next ray's radiance is multiplied with.
+    weight: Spectrum,
+}
+
+/// What a hit leaves to do: its own radiance, and the ray that follows.
+pub(super) struct Step {
+    radiance: Spectrum,
+    next: Option<(PathRay, RayKind)>,
+}
+
+impl Step {
+    /// Nothing follows.
+    fn end(radiance: Spectrum) -> Self {
+        Self { radiance, next: None }
+    }
+}
+
+/// The state of one path.
+pub(super) struct Follow<'a, P: Probe> {
+    pub(super) course: &'a Course,
+    pub(super) walk: Walk<'a, P>,
+}
+
+impl<'a, P: Probe> Follow<'a, P> {
+    pub(super) fn new(course: &'a Course, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
+        Self { course, walk: Walk::new(&course.rules, cx, probe) }
+    }
+
+    /// Follows the path of an eye ray, which starts in the bodies that the camera is in.
+    pub(super) fn sample(mut self, ray: &PathRay, parent: P::Id, out: &mut Contribution) {
+        let ray = PathRay { media: self.walk.cx.scene.start, ..*ray };
+        out.value = Value::Radiance(self.trace(&ray, RayKind::Eye, parent));
+        out.rays = self.walk.rays;
+        out.imbalances = self.walk.imbalances;
+    }
+
+    /// Follows a recorded ray once more.
+    pub(super) fn again(mut self, node: &TreeNode, parent: P::Id, out: &mut Contribution) {
+        let radiance = match &node.light {
+            Some(event) => {
+                self.walk.send_shadow(&node.path, event.light, (event.point, event.unoccluded), parent)
+            }
+            None => self.trace(&node.path, node.kind, parent),
+        };
+        out.value = Value::Radiance(radiance);
+    }
+
+    /// Radiance arriving along a ray.
+    fn trace(&mut self, ray: &PathRay, kind: RayKind, mut parent: P::Id) -> Spectrum {
+        let mut links: [Option<Link<P::Id>>; CHAIN] = std::array::from_fn(|_| None);
+        let mut next = Some((*ray, kind));
+        let mut radiance = Spectrum::BLACK;
+        for link in &mut links {
+            let Some((ray, kind)) = next.take() else { break };
+            let id = self.walk.probe.ray(parent, &ray, kind);
+            let step = self.step(&ray, id);
+            let weight = step.next.as_ref().map_or(Spectrum::BLACK, |(ray, _)| ray.weight);
+            *link = Some(Link { id, radiance: step.radiance, weight });
+            (parent, next) = (id, step.next);
+        }
+        if let Some((ray, kind)) = next {
+            radiance = self.trace(&ray, kind, parent);
+        }
+        for link in links.iter().rev().flatten() {
+            radiance = link.radiance + link.weight * radiance;
+            self.walk.probe.result(link.id, radiance);
+        }
+        radiance
+    }
+
+    fn step(&mut self, ray: &PathRay, id: P::Id) -> Step {
+        let walk = &mut self.walk;
+        if let Some(reason) = walk.reason_to_stop(ray) {
+            if P::RECORDS {
+                walk.report_limit(ray, reason, id);
+            }
+            walk.probe.stop(id, reason, ray.throughput);
+            return Step::end(Spectrum::BLACK);
+        }
+        walk.rays += 1;
+        match walk.cx.scene.closest(walk.cx, &ray.ray, walk.probe, id) {
+            Some(hit) => self.shade(ray, &hit, id),
+            None => Step::end(self.escape(ray, id)),
+        }
+    }
+
+    fn shade(&mut self, ray: &PathRay, hit: &Hit, id: P::Id) -> Step {
+        let walk = &mut self.walk;
+        let mut s = Shading::at(walk.cx, &ray.ray, hit);
+        walk.probe.surface(id, s.object, hit, &s.surface);
+        let crossing = walk.cross(&ray.media, &mut s, hit.t);
+        let arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
+        match crossing.boundary {
+            Boundary::Passed => {
+                if P::RECORDS {
+                    walk.report_passed(ray, &crossing, arriving, id);
+                }
+                let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
+                let child = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
+                return Step { radiance: Spectrum::BLACK, next: Some((child, RayKind::Passing)) };
+            }
+            Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
+            Boundary::Own => {}
+        }
+        if self.course.regularize && ray.is_blurred {
+            s.bsdf.regularize();
+        }
+        s.bsdf.dim(arriving);
+        let emission = arriving * (s.emission + self.lamp(ray, &s));
+        if P::RECORDS {
+            let black = Spectrum::BLACK;
+            let parts = Parts { arrived: arriving, emission, ambient: black, blurred_sky: black };
+            self.report_hit(ray, (&s, &crossing), &parts, id);
+        }
+        self.walk.probe.local(id, emission);
+        if self.course.direct_only && ray.density.is_some() {
+            self.walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+            return Step::end(emission);
+        }
+        let lit = self.lit(&s);
+        let radiance = self.light(ray, (&s, &crossing), &lit, (id, emission));
+        Step { radiance, next: self.scatter(ray, (&s, &crossing), &lit, id) }
+    }
+
+    /// Where light is wanted, as lights are chosen by it.
+    fn lit(&self, s: &Shading) -> Lit {
+        let n = (!s.bsdf.is_frosted()).then(|| s.surface.n_s.face_forward(s.wo));
+        Lit { p: s.surface.p, n, time: s.time }
+    }
+
+    /// The ray that follows a hit, if chance lets it.
+    fn scatter(
+        &mut self,
+        parent: &PathRay,
+        (s, crossing): (&Shading, &Crossing),
+        lit: &Lit,
+        id: P::Id,
+    ) -> Option<(PathRay, RayKind)> {
+        let sampler = parent.sampler.fork(SCATTER_BRANCH);
+        let scattered = s.bsdf.scatter(s.wo_local, sampler.d1(Dim::Lobe), sampler.d2(Dim::Scatter));
+        let Some(scattered) = scattered else {
+            let reason = match P::ACTIVE && s.bsdf.is_black() {
+                true => StopReason::Absorbed,
+                false => StopReason::OpaqueNoChildren,
+            };
+            self.walk.probe.stop(id, reason, Spectrum::BLACK);
+            return None;
+        };
+        let mut child = self.child(parent, (s, crossing), lit, &scattered)?;
+        let kind = match scattered.pdf {
+            None => RayKind::sharp(scattered.kind),
+            Some(_) => RayKind::drawn(scattered.kind),
+        };
+        let kept = self.kept(&child);
+        let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+        if P::RECORDS {
+            self.report_scatter(&sampler, (s, &scattered), kept);
+        }
+        if u >= kept {
+            if P::ACTIVE {
+                let refused = self.walk.probe.ray(id, &child, kind);
+                self.walk.probe.stop(refused, StopReason::Roulette, child.throughput);
+                self.walk.probe.result(refused, Spectrum::BLACK);
+            }
+            return None;
+        }
+        child.weight = child.weight / kept;
+        child.throughput = child.throughput / kept;
+        Some((child, kind))
+    }
+
+    /// The ray in a scattered direction; `None` if a spread direction lies on the wrong side of the true surface.
+    fn child(
+        &self,
+        parent: &PathRay,
+        (s, crossing): (&Shading, &Crossing),
+        lit: &Lit,
+        scattered: &Scattered,
+    ) -> Option<PathRay> {
+        let time = parent.ray.time;
+        let weight = scattered.weight;
+        if scattered.passes {
+            let ray = s.surface.spawn(parent.ray.d, time);
+            let media = crossing.media(BranchKind::Transmission);
+            let walked = (s.surface.p - parent.ray.o).length();
+            let passing = parent.passing((s.surface.p, ray), weight, media, walked);
+            return Some(PathRay { sampler: parent.sampler.fork(SCATTER_BRANCH + 1), ..passing });
+        }
+        let d = s.frame.to_world(scattered.wi);
+        let d = match scattered.pdf {
+            None => s.keep_side(d, scattered.kind),
+            Some(_) if s.side_of(d) == scattered.kind => d,
+            Some(_) => return None,
+        };
+        let ray: Ray = s.surface.spawn(d.normalize(), time);
+        let spreads = scattered.pdf.is_some();
+        Some(PathRay {
+            media: crossing.media(scattered.kind),
+            density: scattered.pdf,
+            lit: *lit,
+            compression: parent.compression * scattered.compression,
+            is_blurred: parent.is_blurred || spreads,
+            ..parent.child((s.surface.p, ray), weight, SCATTER_BRANCH)
+        })
+    }
+
+    /// The probability with which a path goes on: what it carries, but for what the index of refraction does to radiance.
+    fn kept(&self, child: &PathRay) -> f32 {
+        if child.depth <= self.course.roulette_depth {
+            return 1.0;
+        }
+        let carried = child.throughput.max() / child.compression;
+        // Paths that carry more than the eye ray go on, and so do those whose share cannot be told.
+        if carried < 1.0 { carried } else { 1.0 }
+    }
+}

@@ -1,0 +1,132 @@
+//! Path tracing: one direction per hit instead of all, at random, so that every way that light can take is found.
+//!
+//! `L = L_e + light of one lamp, chosen and sampled + weight * L(next ray)` (Kajiya 1986, "The Rendering Equation"). What
+//! both a sampled light and a sampled direction can find counts in proportion to their densities (balance heuristic, Veach
+//! and Guibas 1995). Paths that carry little end by chance and the others stand for them (Arvo and Kirk 1990).
+mod direct;
+mod follow;
+mod report;
+
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Integrator, Transport, walk::Rules};
+use crate::{
+    Contribution, LightSampler, PathRay, SampleCx,
+    probe::{Probe, TreeNode},
+};
+use follow::Follow;
+
+/// What a path integrator asks of the recursion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Course {
+    rules: Rules,
+    /// How lights are chosen.
+    light_sampler: LightSampler,
+    /// Sharp lobes seen after a blurred bounce are blurred as well.
+    regularize: bool,
+    /// Bounces after which chance may end a path.
+    roulette_depth: u32,
+    /// What spread directions meet is asked for its own light only.
+    direct_only: bool,
+}
+
+impl Course {
+    const MAX_DEPTH: ParamSpec = ParamSpec::new(
+        "maxdepth",
+        ParamType::Int,
+        ParamDefault::Int(5),
+        "Bounces at most; 1 is direct light.",
+    )
+    .range(0.0, 10_000.0);
+    const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
+        "lightsampler",
+        ParamType::Choice(&LightSampler::WORDS),
+        ParamDefault::Text("uniform"),
+        "How the light is chosen that a hit asks: each as often, by power, or by what it may send there.",
+    );
+
+    fn from_args(args: &mut Args<'_>) -> Option<Self> {
+        let rules = Rules { max_depth: args.int("maxdepth") as u32, ..Rules::PATH };
+        let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
+        Some(Self { rules, light_sampler, regularize: false, roulette_depth: u32::MAX, direct_only: false })
+    }
+}
+
+/// The path tracer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    course: Course,
+}
+
+impl Kind for Path {
+    type Output = Box<dyn Integrator>;
+    const SCHEMA: Schema = Schema {
+        name: "path",
+        aliases: &["volpath"],
+        doc: "Path tracing with multiple importance sampling and Russian roulette: all light that surfaces scatter.",
+        params: &[
+            Course::MAX_DEPTH,
+            Course::LIGHT_SAMPLER,
+            ParamSpec::new(
+                "regularize",
+                ParamType::Bool,
+                ParamDefault::Bool(false),
+                "Blurs nearly sharp reflections of what is seen after a blurred bounce: less noise, a little wrong.",
+            ),
+            ParamSpec::new(
+                "roulettedepth",
+                ParamType::Int,
+                ParamDefault::Int(1),
+                "Bounces after which chance may end a path.",
+            )
+            .range(0.0, 10_000.0),
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let (regularize, roulette_depth) = (args.bool("regularize"), args.int("roulettedepth") as u32);
+        Some(Box::new(Self { course: Course { regularize, roulette_depth, ..Course::from_args(args)? } }))
+    }
+}
+
+/// Direct light only, seen in mirrors and through glass as well: a path tracer that stops early.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direct;
+
+impl Kind for Direct {
+    type Output = Box<dyn Integrator>;
+    const SCHEMA: Schema = Schema {
+        name: "direct",
+        aliases: &["directlighting"],
+        doc: "Direct light with multiple importance sampling; mirrors and glass are followed, nothing else is.",
+        params: &[Course::MAX_DEPTH, Course::LIGHT_SAMPLER],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        Some(Box::new(Path { course: Course { direct_only: true, ..Course::from_args(args)? } }))
+    }
+}
+
+impl Transport for Path {
+    fn depth_limit(&self) -> Option<u32> {
+        Some(self.course.rules.max_depth)
+    }
+    fn sample<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: PathRay,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        Follow::new(&self.course, cx, probe).sample(&ray, parent, out);
+    }
+    fn again<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        node: &TreeNode,
+        parent: P::Id,
+        probe: &mut P,
+        out: &mut Contribution,
+    ) {
+        Follow::new(&self.course, cx, probe).again(node, parent, out);
+    }
+}
