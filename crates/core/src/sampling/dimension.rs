@@ -33,9 +33,9 @@ impl Dim {
         match (self, forks) {
             (Self::Pixel, 0) => Some([0, 1]),
             (Self::Lens, 0) => Some([8, 9]),
-            (Self::Time, 0) => Some([10, 10]),
+            (Self::Time, 0) => Some([10, 6]),
             (Self::Scatter | Self::Light, 1) => Some([2, 3]),
-            (Self::Lobe | Self::LightChoice, 1) => Some([4, 4]),
+            (Self::Lobe | Self::LightChoice, 1) => Some([4, 7]),
             _ => None,
         }
     }
@@ -47,12 +47,12 @@ impl Dim {
         match self {
             Self::Pixel => (0, [0, 1]),
             Self::Lens => (0, [2, 3]),
-            Self::Time => (0, [4, 4]),
+            Self::Time => (0, [4, 5]),
             Self::Scatter => (1, [0, 1]),
-            Self::Lobe => (1, [2, 2]),
+            Self::Lobe => (1, [2, 3]),
             Self::Light => (2, [0, 1]),
-            Self::LightChoice => (2, [2, 2]),
-            Self::Roulette => (3, [0, 0]),
+            Self::LightChoice => (2, [2, 3]),
+            Self::Roulette => (3, [0, 1]),
         }
     }
 

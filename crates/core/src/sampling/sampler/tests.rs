@@ -105,7 +105,7 @@ fn correlation(kind: SamplerKind, i: u32, a: impl Fn(&Sampler) -> f32, b: impl F
 
 #[test]
 fn dimensions_and_bounces_are_uncorrelated_c3() {
-    for kind in [SamplerKind::PaddedSobol, SamplerKind::Stratified, SamplerKind::Independent] {
+    for kind in KINDS.into_iter().filter(|kind| *kind != SamplerKind::Regular) {
         for i in [0, 5] {
             for (k, a) in DIMS.into_iter().enumerate() {
                 for b in DIMS.into_iter().skip(k + 1) {
@@ -168,5 +168,39 @@ fn digits_hold_a_whole_sampler() {
             "0+00000000000000000000000000000000",
         ];
         broken.iter().for_each(|b| assert_eq!(Sampler::from_hex(b), None, "{b}"));
+    }
+}
+
+#[test]
+fn digits_of_earlier_versions_mean_what_they_meant() {
+    let old = "0123456789abcdef00000000500000010";
+    let sampler = Sampler::from_hex(old).expect("a sampler");
+    assert_eq!((sampler.kind, sampler.index, sampler.count), (SamplerKind::PaddedSobol, 5, 16));
+    assert_eq!((sampler.place, sampler.forks, sampler.to_hex().as_str()), (0, 0, old));
+    // Kinds that have no place in the picture take none.
+    assert_eq!(Sampler::from_hex(&format!("{old}0000000100")), None);
+}
+
+#[test]
+fn points_that_are_counted_in_another_way_are_of_another_set() {
+    for kind in [SamplerKind::Sobol, SamplerKind::ZSobol] {
+        let eye = |i: u32| Sampler::new(kind, 3, [5, 9], i, 64);
+        // All parts of a split together, of eye and of the first hit: one net.
+        let mut cells = [[0; 16]; 16];
+        for p in (0..64).flat_map(|i| (0..4).map(move |j| eye(i).fork(2).split(j, 4).d2(Dim::Light))) {
+            cells[(p.y * 16.0) as usize][(p.x * 16.0) as usize] += 1;
+        }
+        assert_eq!(cells, [[1; 16]; 16], "{kind:?}");
+        // Sharing with none, and splitting in one, change nothing.
+        let same = eye(7).fork(2);
+        assert_eq!((same.shared_by(1), same.split(0, 1)), (same, same));
+        // Places that four samples share are spread over the lens of each: 16 times 4 points fill 64 cells of both.
+        let mut pairs = [[0; 16]; 16];
+        for i in 0..64 {
+            let (place, lens) = (eye(i).shared_by(4).d2(Dim::Pixel), eye(i).d2(Dim::Lens));
+            let cell = |p: Point2| (4.0 * p.x) as usize + 4 * (4.0 * p.y) as usize;
+            pairs[cell(place)][cell(lens)] += 1;
+        }
+        assert!(pairs.iter().all(|of_place| of_place.iter().sum::<i32>() == 4), "{kind:?}");
     }
 }
