@@ -147,5 +147,17 @@ fn scenes_choose_their_sampler() {
     assert_eq!(of(cells), (SamplerKind::Stratified, 15));
     assert_eq!(of(&format!("{cells} \"bool jitter\" false")), (SamplerKind::Regular, 15));
     assert_eq!(of("\"independent\""), (SamplerKind::Independent, 16));
-    assert_eq!(of("\"zsobol\""), (SamplerKind::Sobol, 16));
+    for (word, kind) in [
+        ("halton", SamplerKind::Halton),
+        ("sobol", SamplerKind::Sobol),
+        ("paddedsobol", SamplerKind::PaddedSobol),
+        ("zsobol", SamplerKind::ZSobol),
+        ("pmj02bn", SamplerKind::ZSobol),
+    ] {
+        assert_eq!(of(&format!("\"{word}\"")), (kind, 16));
+    }
+    let asked = Options { sampler: Some(SamplerKind::Halton), ..Options::default() };
+    assert_eq!(scene("WorldBegin\nShape \"sphere\"\n", &asked).settings.sampler, SamplerKind::Halton);
+    let unasked = scene("WorldBegin\nShape \"sphere\"\n", &Options::default());
+    assert_eq!(unasked.settings.sampler, SamplerKind::ZSobol);
 }

@@ -47,6 +47,11 @@ Tasks of the durer project.
       `durer trace` as a whole, N times (default 3); how large its pages are; how fast pages of 10,000 rays are in
       Chromium (docs/benchmarks.md). What is missing is said and left out.
 
+  cargo xtask bench samplers [--json] [--quick] [--chart]
+      The noise that each sampler leaves in small pictures at 1 to 1024 samples per pixel, and how many times less that
+      is than of independent ones, as they are and blurred (docs/samplers.md); --quick ends at 64 samples, --chart draws
+      docs/samplers.svg anew.
+
   cargo xtask assets [--folder F] [--formats gltf,obj,ply,stl] [--width 320]
       Opens and renders every model of these formats in the folder of test files (F, else the assets/ in DURER_SHARED,
       else ../shared/assets); writes docs/assets.md with a thumbnail, counts and times of each and says which were
@@ -76,6 +81,9 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
         ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
         ["bench", "kernel", options @ ..] => bench::kernel::run(options),
         ["bench", "view", options @ ..] => bench::view::run(&bench::view::Options::parse(options)?),
+        ["bench", "samplers", options @ ..] => {
+            bench::samplers::run(bench::samplers::Options::parse(options)?)
+        }
         ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");

@@ -16,6 +16,7 @@ use durer::{
     film::Tile,
     integrator::INTEGRATORS,
     math::Interval,
+    sampling::SamplerKind,
     scene::Missing,
 };
 
@@ -131,6 +132,9 @@ pub(crate) struct FilmOptions {
     /// Samples per pixel [default: the scene's, else 64; data pictures 1].
     #[arg(long, alias = "samples", value_name = "N", value_parser = whole(1..=u32::MAX), allow_negative_numbers = true)]
     spp: Option<u32>,
+    /// How samples become random numbers: docs/samplers.md compares [default: the scene's, else zsobol].
+    #[arg(long, value_name = "KIND", value_parser = sampler())]
+    sampler: Option<SamplerKind>,
     /// Where the samples of a pixel lie [default: supersample].
     #[arg(long, value_name = "HOW", value_enum)]
     antialias: Option<Strategy>,
@@ -248,7 +252,7 @@ impl FilmOptions {
 impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
-        let FilmOptions { width, height, scale, spp, crop, seed, .. } = self.film;
+        let FilmOptions { width, height, scale, spp, sampler, crop, seed, .. } = self.film;
         let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
             self.transport.clone();
         Options {
@@ -258,6 +262,7 @@ impl SampleOptions {
             height,
             scale,
             samples: spp,
+            sampler,
             antialias: self.film.antialias(),
             max_depth,
             min_contribution,
@@ -292,6 +297,7 @@ impl SampleOptions {
             height,
             scale,
             spp,
+            sampler,
             antialias,
             aa_depth,
             aa_threshold,
@@ -317,6 +323,7 @@ impl SampleOptions {
         say("height", height.map(|v| v.to_string()));
         say("scale", scale.map(|v| v.to_string()));
         say("spp", spp.map(|v| v.to_string()));
+        say("sampler", sampler.map(|v| v.word().to_owned()));
         let word = |value: Option<PossibleValue>| value.map(|v| v.get_name().to_owned());
         say("antialias", word(antialias.and_then(|v| v.to_possible_value())));
         say("aa-depth", aa_depth.map(|v| v.to_string()));
@@ -349,6 +356,11 @@ fn quoted(word: &str) -> String {
 
 fn integrators() -> Vec<PossibleValue> {
     INTEGRATORS.iter().map(|e| PossibleValue::new(e.schema.name).help(e.schema.doc)).collect()
+}
+
+fn sampler() -> impl TypedValueParser<Value = SamplerKind> {
+    let words = SamplerKind::ALL.map(SamplerKind::word);
+    PossibleValuesParser::new(words).try_map(|word| SamplerKind::from_word(&word).ok_or("unknown"))
 }
 
 fn show() -> impl TypedValueParser<Value = Show> {

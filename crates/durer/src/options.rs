@@ -2,7 +2,7 @@
 use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
-use durer_core::math::Interval;
+use durer_core::{math::Interval, sampling::SamplerKind};
 use durer_render::{
     compile::LensOptions,
     drive::Antialias,
@@ -45,6 +45,8 @@ pub struct Options {
     pub scale: Option<f32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// How samples become random numbers.
+    pub sampler: Option<SamplerKind>,
     /// Where the samples of a pixel lie.
     pub antialias: Antialias,
     /// Bounces traced at most.

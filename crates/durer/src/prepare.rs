@@ -108,7 +108,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     check_antialias(options, &scene, &*integrator, diagnostics);
     let settings = Settings {
         samples: eye.total,
-        sampler: sampler(desc),
+        sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
         nesting: Nesting { time: eye.time, lens: eye.lens },
         seed: options.seed,
         threads: options.threads.unwrap_or_else(all_cores),
@@ -360,10 +360,10 @@ fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mu
 
 fn sampler(desc: &SceneDesc) -> SamplerKind {
     match desc.sampler.as_ref().map(|n| n.kind.as_str()) {
-        Some("independent") => SamplerKind::Independent,
         Some("stratified") if !is_jittered(desc) => SamplerKind::Regular,
-        Some("stratified") => SamplerKind::Stratified,
-        _ => SamplerKind::Sobol,
+        // pbrt's other sampler whose noise is fine-grained.
+        Some("pmj02bn") => SamplerKind::ZSobol,
+        word => word.and_then(SamplerKind::from_word).unwrap_or_default(),
     }
 }
 

@@ -294,3 +294,101 @@ fn moments_follow_the_shutter_curve_and_rows() {
     let row = even.during(durer_core::math::Interval::point(1.0));
     assert!(row.is_instant() && !row.sees_one_moment() && row.moment(0.5, 4, 10) == 1.0 + 0.225);
 }
+
+/// pbrt-v4's directions (`x` right, `y` up, `z` ahead) of places in the picture, worked out by hand from its formulas.
+#[test]
+fn spherical_pictures_lie_as_pbrts() {
+    let r = f64::sqrt(0.5);
+    let sees = |mapping: &str, film: [f32; 2], expected: [f64; 3]| {
+        let camera = camera("spherical", Params::new().string("mapping", mapping), 64, 64);
+        let ray = through(camera.as_ref(), film[0], film[1]);
+        assert_eq!((ray.o, ray.time), (Point3::ZERO, 0.25));
+        let off =
+            [ray.d.x, ray.d.y, ray.d.z].into_iter().zip(expected).map(|(a, b)| (f64::from(a) - b).abs());
+        assert!(off.fold(0.0, f64::max) < 2e-6, "{mapping} {film:?}: {:?}, expected {expected:?}", ray.d);
+    };
+    for (film, expected) in [
+        // Angle from the top down, longitude from +x by +z.
+        ([0.3, 0.0], [0.0, 1.0, 0.0]),
+        ([0.0, 0.5], [1.0, 0.0, 0.0]),
+        ([0.25, 0.5], [0.0, 0.0, 1.0]),
+        ([0.5, 0.5], [-1.0, 0.0, 0.0]),
+        ([0.75, 0.5], [0.0, 0.0, -1.0]),
+        ([0.25, 0.75], [0.0, -r, r]),
+        // Beyond the edges, where filters reach: over the pole and over the seam.
+        ([0.25, -0.25], [0.0, r, -r]),
+        ([1.25, 0.5], [0.0, 0.0, 1.0]),
+    ] {
+        sees("equirectangular", film, expected);
+    }
+    // The ring half-way between the middle and an edge has height 1 - (1/2)² and radius sqrt(7)/4.
+    let ring = 7f64.sqrt() / 4.0;
+    for (film, expected) in [
+        ([0.5, 0.5], [0.0, 1.0, 0.0]),
+        ([1.0, 0.5], [1.0, 0.0, 0.0]),
+        ([0.0, 0.5], [-1.0, 0.0, 0.0]),
+        ([0.5, 1.0], [0.0, 0.0, 1.0]),
+        ([0.5, 0.0], [0.0, 0.0, -1.0]),
+        ([0.0, 0.0], [0.0, -1.0, 0.0]),
+        ([1.0, 1.0], [0.0, -1.0, 0.0]),
+        ([0.75, 0.5], [ring, 0.75, 0.0]),
+        ([0.5, 0.25], [0.0, 0.75, -ring]),
+        ([0.75, 0.75], [r, 0.0, r]),
+    ] {
+        sees("equalarea", film, expected);
+    }
+    // Beyond an edge lies what is within it, mirrored about the edge's middle.
+    let camera = camera("spherical", Params::new(), 8, 8);
+    for ([x, y], inside) in [([1.25, 0.625], [0.75, 0.375]), ([0.625, -0.25], [0.375, 0.25])] {
+        assert_eq!(through(camera.as_ref(), x, y).d, through(camera.as_ref(), inside[0], inside[1]).d);
+    }
+}
+
+/// Solid angle of the spherical triangle of three unit vectors (Van Oosterom and Strackee 1983).
+fn solid_angle([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+    2.0 * dot(a, cross).atan2(1.0 + dot(a, b) + dot(b, c) + dot(c, a))
+}
+
+#[test]
+fn spherical_pixels_cover_the_sphere_once() {
+    // Of the two only the longitudes run the wrong way round: so they do in pbrt-v4.
+    for (mapping, w, h, sign) in [("equalarea", 32usize, 32usize, 1.0), ("equirectangular", 64, 32, -1.0)] {
+        let params = Params::new().string("mapping", mapping);
+        let camera = camera("spherical", params, w as u32, h as u32);
+        let at = |x: usize, y: usize| {
+            let d = through(camera.as_ref(), x as f32 / w as f32, y as f32 / h as f32).d;
+            assert!((d.length() - 1.0).abs() < 1e-6);
+            [d.x, d.y, d.z].map(f64::from)
+        };
+        let mut sum = 0.0;
+        for y in 0..h {
+            for x in 0..w {
+                let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+                let found = sign * (solid_angle([a, c, b]) + solid_angle([a, d, c]));
+                // A map that turns the same way everywhere meets no direction twice.
+                assert!(
+                    found > 0.0 || (mapping == "equirectangular" && found.abs() < 1e-6),
+                    "{mapping} {x} {y}"
+                );
+                sum += found;
+                if mapping == "equalarea" {
+                    let share = found * (w * h) as f64 / (4.0 * std::f64::consts::PI);
+                    // Pixels' edges are curved: the polygon differs, least where pixels are small.
+                    assert!((share - 1.0).abs() < 0.12, "{x} {y}: {share}");
+                }
+            }
+        }
+        assert!((sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-4, "{mapping}: {sum}");
+    }
+}
+
+#[test]
+fn what_a_spherical_camera_does_not_heed_is_said() {
+    let (_, said) = build("spherical", Params::new().float("lensradius", 1.0), 8, 8).expect("sound");
+    assert!(said.contains("\"lensradius\" has no effect"), "{said}");
+    assert!(build("spherical", Params::new().string("mapping", "mercator"), 8, 8).is_err());
+    let open = camera("spherical", Params::new(), 8, 8);
+    assert!(!open.lens().is_open());
+}

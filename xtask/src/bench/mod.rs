@@ -13,6 +13,7 @@ pub(crate) mod kernel;
 mod povray;
 mod quality;
 mod report;
+pub(crate) mod samplers;
 pub(crate) mod view;
 
 use std::fs;

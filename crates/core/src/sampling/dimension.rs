@@ -24,6 +24,60 @@ pub enum Dim {
 }
 
 impl Dim {
+    /// Which Sobol dimensions it takes where eye and first hit of a path share one set of points, after `forks` ways taken
+    /// since the eye; `None` elsewhere. The dimensions are those of the lowest t-values together with the place in the
+    /// pixel, for up to 2^10 points. What a lamp sends and what a scattered ray brings is added and never multiplied: these
+    /// take the same dimensions, differently scrambled, which leaves their errors uncorrelated.
+    #[inline]
+    pub(super) fn joint(self, forks: u8) -> Option<[usize; 2]> {
+        match (self, forks) {
+            (Self::Pixel, 0) => Some([0, 1]),
+            (Self::Lens, 0) => Some([8, 9]),
+            (Self::Time, 0) => Some([10, 6]),
+            (Self::Scatter | Self::Light, 1) => Some([2, 3]),
+            (Self::Lobe | Self::LightChoice, 1) => Some([4, 7]),
+            _ => None,
+        }
+    }
+
+    /// Elsewhere numbers that decide one thing together share a set of points: which one, and which Sobol dimensions of it.
+    /// What is of two numbers has the first two, of which the projection is the best.
+    #[inline]
+    pub(super) fn in_set(self) -> (u64, [usize; 2]) {
+        match self {
+            Self::Pixel => (0, [0, 1]),
+            Self::Lens => (0, [2, 3]),
+            Self::Time => (0, [4, 5]),
+            Self::Scatter => (1, [0, 1]),
+            Self::Lobe => (1, [2, 3]),
+            Self::Light => (2, [0, 1]),
+            Self::LightChoice => (2, [2, 3]),
+            Self::Roulette => (3, [0, 1]),
+        }
+    }
+
+    /// Where its numbers stand in the list of all that a path asks for, after `forks` ways taken since the eye; `None` where
+    /// it is not asked for.
+    #[inline]
+    pub(super) fn position(self, forks: u8) -> Option<usize> {
+        match (self, forks) {
+            (Self::Pixel, 0) => Some(0),
+            (Self::Lens, 0) => Some(2),
+            (Self::Time, 0) => Some(4),
+            (Self::Pixel | Self::Lens | Self::Time, _) | (_, 0) => None,
+            (hit, n) => Some(
+                7 * usize::from(n) - 2
+                    + match hit {
+                        Self::Scatter => 0,
+                        Self::Light => 2,
+                        Self::Lobe => 4,
+                        Self::LightChoice => 5,
+                        _ => 6,
+                    },
+            ),
+        }
+    }
+
     /// The word in exports.
     pub fn word(self) -> &'static str {
         match self {

@@ -1,8 +1,11 @@
 //! Random numbers as pure functions of (seed, pixel, sample index, branch, named dimension).
 
+mod curve;
 mod density;
 mod dimension;
+mod halton;
 mod hash;
+mod kind;
 mod sampler;
 mod sobol;
 mod strata;
@@ -10,5 +13,6 @@ mod warp;
 
 pub use density::LinearDensity;
 pub use dimension::Dim;
-pub use sampler::{Sampler, SamplerKind};
+pub use kind::SamplerKind;
+pub use sampler::Sampler;
 pub use warp::{concentric_disk, cosine_hemisphere};

@@ -1,37 +1,21 @@
 //! The stateless sampler: every number can be asked for again, in any order, on any thread.
 use super::{
-    Dim,
+    Dim, SamplerKind, curve, halton,
     hash::{combine, unit_float},
     sobol,
     strata::{self, Place},
 };
 use crate::math::Point2;
 
-/// How sample indices become numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SamplerKind {
-    /// Owen-scrambled Sobol pairs, padded: stratified in every pair of numbers, random between pairs.
-    #[default]
-    Sobol,
-    /// Unrelated random numbers.
-    Independent,
-    /// One random number in each cell of a grid, cells in random order (Cook 1984): stratified in every pair of numbers
-    /// and in every single number, random between them.
-    Stratified,
-    /// The middles of those cells.
-    Regular,
-}
-
-impl SamplerKind {
-    /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Sobol, Self::Independent, Self::Stratified, Self::Regular];
-}
-
 /// The numbers of one sample of one pixel, at one node of its ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
     kind: SamplerKind,
-    /// Hash of (seed, pixel, way through the ray tree).
+    /// Ways taken from the eye to here, if the kind asks.
+    forks: u8,
+    /// Place of the pixel on the curve through the picture, if the kind has one.
+    place: u32,
+    /// Hash of (seed, pixel, way through the ray tree), without the pixel where points are dealt out over the picture.
     key: u64,
     /// Index of the sample within its pixel.
     index: u32,
@@ -45,27 +29,41 @@ impl Sampler {
     /// With a `count` of one, [`Dim::Pixel`] gives the pixel's centre: a picture without antialiasing has straight edges.
     #[inline]
     pub fn new(kind: SamplerKind, seed: u64, pixel: [u32; 2], index: u32, count: u32) -> Self {
-        let pixel = (u64::from(pixel[1]) << 32) | u64::from(pixel[0]);
-        Self { kind, key: combine(seed, pixel), index, count }
+        let [x, y] = pixel;
+        let of = |x: u32, y: u32| (u64::from(y) << 32) | u64::from(x);
+        if kind.spans_pixels() {
+            // Pictures of more than 65,536 pixels a side repeat the curve, with other numbers.
+            let key = combine(seed, of(x >> 16, y >> 16) ^ 0x5EED_0F1A);
+            Self { kind, forks: 0, place: curve::place(x, y, key as u32), key, index, count }
+        } else {
+            Self { kind, forks: 0, place: 0, key: combine(seed, of(x, y)), index, count }
+        }
     }
 
     /// The sampler whose every number is the middle of `[0, 1)`.
     #[inline]
     pub fn middle() -> Self {
-        Self { kind: SamplerKind::Regular, key: 0, index: 0, count: 1 }
+        Self { kind: SamplerKind::Regular, forks: 0, place: 0, key: 0, index: 0, count: 1 }
     }
 
-    /// Everything it is, in hexadecimal digits: kind, key, index and count.
+    /// Everything it is, in hexadecimal digits: kind, key, index and count, then place and forks if one of them is not 0.
     pub fn to_hex(&self) -> String {
-        format!("{:x}{:016x}{:08x}{:08x}", self.kind as u8, self.key, self.index, self.count)
+        let mut hex = format!("{:x}{:016x}{:08x}{:08x}", self.kind as u8, self.key, self.index, self.count);
+        if self.place != 0 || self.forks != 0 {
+            hex += &format!("{:08x}{:02x}", self.place, self.forks);
+        }
+        hex
     }
     /// The sampler of which [`Sampler::to_hex`] gave `hex`; `None` if none gave it.
     pub fn from_hex(hex: &str) -> Option<Self> {
         let number = |digits: std::ops::Range<usize>| u64::from_str_radix(hex.get(digits)?, 16).ok();
         let kind = SamplerKind::ALL.into_iter().find(|&kind| Some(kind as u64) == number(0..1))?;
         let (key, index, count) = (number(1..17)?, number(17..25)? as u32, number(25..33)? as u32);
-        let sampler = Self { kind, key, index, count };
-        (sampler.to_hex() == hex).then_some(sampler)
+        let (place, forks) =
+            if hex.len() > 33 { (number(33..41)? as u32, number(41..43)? as u8) } else { (0, 0) };
+        let possible = (place == 0 || kind.spans_pixels()) && (forks == 0 || kind.counts_forks());
+        let sampler = Self { kind, forks, place, key, index, count };
+        (possible && sampler.to_hex() == hex).then_some(sampler)
     }
 
     /// The sampler of a child ray: different numbers for every `branch` (mirror and transmitted ray, i-th of n rays).
@@ -74,7 +72,7 @@ impl Sampler {
     pub fn fork(self, branch: u32) -> Self {
         // PERF: one multiplication, as most forks are never asked for a number; d2 mixes the key (bench render).
         let key = (self.key ^ (u64::from(branch) + 1)).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29);
-        Self { key, ..self }
+        Self { key, forks: self.forks.saturating_add(u8::from(self.kind.counts_forks())), ..self }
     }
 
     /// The `i`-th of `n` samplers that share the work of this one: where several rays take the place of one, their
@@ -84,6 +82,7 @@ impl Sampler {
     pub fn split(self, i: u32, n: u32) -> Self {
         debug_assert!(i < n, "part {i} of {n}");
         Self {
+            forks: self.forks_unless(n > 1),
             index: self.index.wrapping_mul(n).wrapping_add(i),
             count: self.count.saturating_mul(n),
             ..self
@@ -96,7 +95,16 @@ impl Sampler {
     #[inline]
     pub fn shared_by(self, n: u32) -> Self {
         let n = n.max(1);
-        Self { index: self.index / n, count: self.count.div_ceil(n), ..self }
+        let forks = self.forks_unless(n > 1);
+        // Other sets of points too, as the same ones belong to the samples in the group.
+        let key = if forks == self.forks { self.key } else { combine(self.key, u64::from(n)) };
+        Self { forks, key, index: self.index / n, count: self.count.div_ceil(n), ..self }
+    }
+
+    /// Points that are counted in another way are none of the set that eye and first hit share: to that the most ways lead.
+    #[inline]
+    fn forks_unless(self, counted_apart: bool) -> u8 {
+        if counted_apart && self.kind.counts_forks() { u8::MAX } else { self.forks }
     }
 
     /// A number in `[0, 1)`.
@@ -104,12 +112,9 @@ impl Sampler {
     pub fn d1(&self, dim: Dim) -> f32 {
         let place = match self.kind {
             // PERF: only half of the point (bench render).
-            SamplerKind::Sobol => {
-                let h = combine(self.key, dim as u64);
-                let shuffled = sobol::owen_scramble(self.index, h as u32);
-                let scramble = combine(h, 1) as u32;
-                return unit_float(sobol::owen_scramble(sobol::dimension0(shuffled), scramble));
-            }
+            SamplerKind::PaddedSobol => return self.padded(dim).first(),
+            SamplerKind::Sobol | SamplerKind::ZSobol => return self.joint(dim).first(),
+            SamplerKind::Halton => return self.halton(dim, 1).x,
             SamplerKind::Independent => return self.d2(dim).x,
             SamplerKind::Stratified => Place::Random,
             SamplerKind::Regular => Place::Centre,
@@ -131,16 +136,75 @@ impl Sampler {
             }
             SamplerKind::Stratified => strata::square(h, self.index, self.count, Place::Random),
             SamplerKind::Regular => strata::square(h, self.index, self.count, Place::Centre),
-            SamplerKind::Sobol => {
-                // Shuffling the index by a nested permutation decorrelates dimensions and keeps the net (Burley 2020).
-                let shuffled = sobol::owen_scramble(self.index, h as u32);
-                let scramble = combine(h, 1);
-                Point2::new(
-                    unit_float(sobol::owen_scramble(sobol::dimension0(shuffled), scramble as u32)),
-                    unit_float(sobol::owen_scramble(sobol::dimension1(shuffled), (scramble >> 32) as u32)),
-                )
-            }
+            SamplerKind::PaddedSobol => self.padded(dim).both(),
+            SamplerKind::Sobol | SamplerKind::ZSobol => self.joint(dim).both(),
+            SamplerKind::Halton => self.halton(dim, 2),
         }
+    }
+
+    /// A pair of its own. Shuffling the index by a nested permutation decorrelates pairs and keeps the net (Burley 2020).
+    #[inline]
+    fn padded(&self, dim: Dim) -> Scrambled {
+        let h = combine(self.key, dim as u64);
+        let index = sobol::owen_scramble(self.index, h as u32);
+        Scrambled { index, dimensions: [0, 1], scramble: combine(h, 1) }
+    }
+
+    /// Two dimensions of the set that eye and first hit share, or of a smaller one elsewhere.
+    #[inline]
+    fn joint(&self, dim: Dim) -> Scrambled {
+        let (index, key) = self.point();
+        let scramble = combine(key, dim as u64);
+        if let Some(dimensions) = dim.joint(self.forks) {
+            return Scrambled { index, dimensions, scramble };
+        }
+        let (set, dimensions) = dim.in_set();
+        // No dimension has the number of a set.
+        let shuffle = combine(key, !set) as u32;
+        Scrambled { index: sobol::owen_scramble(index, shuffle), dimensions, scramble }
+    }
+
+    /// Which point of a sequence this is, and the key of that sequence. One sequence is dealt out over `2^32` points; what
+    /// lies beyond has others.
+    #[inline]
+    fn point(&self) -> (u32, u64) {
+        if !self.kind.spans_pixels() {
+            return (self.index, self.key);
+        }
+        let bits = 32 - self.count.saturating_sub(1).leading_zeros();
+        let global = (u64::from(self.place) << bits) | u64::from(self.index);
+        (global as u32, self.key ^ (global >> 32))
+    }
+
+    /// One or two coordinates of a Halton point; padded pairs where the primes run out.
+    fn halton(&self, dim: Dim, numbers: usize) -> Point2 {
+        let position = dim.position(self.forks).filter(|at| at + numbers <= halton::DIMENSIONS);
+        let Some(position) = position else { return self.padded(dim).both() };
+        let h = combine(self.key, dim as u64);
+        let coordinate = |i: usize, h: u64| halton::radical_inverse(self.index, self.count, position + i, h);
+        let second = if numbers == 2 { coordinate(1, combine(h, 1)) } else { 0.0 };
+        Point2::new(coordinate(0, h), second)
+    }
+}
+
+/// A point of two Sobol dimensions, and how each is scrambled.
+struct Scrambled {
+    index: u32,
+    dimensions: [usize; 2],
+    scramble: u64,
+}
+
+impl Scrambled {
+    #[inline]
+    fn first(&self) -> f32 {
+        let coordinate = sobol::coordinate(self.index, self.dimensions[0]);
+        unit_float(sobol::owen_scramble(coordinate, self.scramble as u32))
+    }
+    #[inline]
+    fn both(&self) -> Point2 {
+        let coordinate = sobol::coordinate(self.index, self.dimensions[1]);
+        let second = unit_float(sobol::owen_scramble(coordinate, (self.scramble >> 32) as u32));
+        Point2::new(self.first(), second)
     }
 }
 

@@ -14,6 +14,8 @@ use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
 
 /// Height of the film that a focal length is worked out for if none is given: that of a 35 mm camera.
 const FILM_MM: f32 = 24.0;
+/// Depth of the plane in focus unless told.
+const FAR: f32 = 1e6;
 
 const fn optional(name: &'static str, doc: &'static str) -> ParamSpec {
     ParamSpec::new(name, ParamType::Float, ParamDefault::Unset, doc).range(0.0, f32::INFINITY)
@@ -24,7 +26,7 @@ pub(super) const LENS: [ParamSpec; 7] = [
     ParamSpec::float("lensradius", 0.0, "Radius of the lens; 0 has everything in focus.")
         .unit("m")
         .range(0.0, f32::INFINITY),
-    ParamSpec::float("focaldistance", 1e6, "Depth of the plane in focus, along the camera's axis.")
+    ParamSpec::float("focaldistance", FAR, "Depth of the plane in focus, along the camera's axis.")
         .unit("m")
         .range(0.0, f32::INFINITY),
     optional("fnumber", "The radius of the lens in another way: focal length by twice this number."),
@@ -113,6 +115,12 @@ impl Lens {
         let focal_mm = args.optional_float("focallength");
         let corners = (0..blades).map(corner).collect();
         Self { radius: args.float("lensradius"), focus, fnumber, focal_mm, focus_pixel, corners }
+    }
+
+    /// Of a camera that has no other.
+    pub(super) fn pinhole() -> Self {
+        let focus = FAR;
+        Self { radius: 0.0, focus, fnumber: None, focal_mm: None, focus_pixel: None, corners: Vec::new() }
     }
 
     /// Finds the radius of an f-number; `slope` is the height of the picture at depth 1, by 2.

@@ -8,6 +8,7 @@ mod orthographic;
 mod perspective;
 mod screen;
 mod shutter;
+mod spherical;
 
 use std::fmt::Debug;
 
@@ -18,6 +19,7 @@ pub use lens::Lens;
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
 pub use shutter::Shutter;
+pub use spherical::Spherical;
 
 /// A camera.
 pub trait Camera: Debug + Send + Sync {
@@ -35,4 +37,5 @@ pub trait Camera: Debug + Send + Sync {
 }
 
 /// All kinds of camera.
-pub const CAMERAS: &[Entry<Box<dyn Camera>>] = &[Entry::of::<Orthographic>(), Entry::of::<Perspective>()];
+pub const CAMERAS: &[Entry<Box<dyn Camera>>] =
+    &[Entry::of::<Orthographic>(), Entry::of::<Perspective>(), Entry::of::<Spherical>()];

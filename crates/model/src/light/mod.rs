@@ -10,7 +10,7 @@ mod falloff;
 mod goniometric;
 mod gradient_sky;
 mod ies;
-mod infinite;
+pub(crate) mod infinite;
 mod picture;
 mod point;
 mod projection;

@@ -1,7 +1,7 @@
 //! Samplers: strata, independence, and how they divide.
 use super::*;
 
-const KINDS: [SamplerKind; 4] = SamplerKind::ALL;
+const KINDS: [SamplerKind; 7] = SamplerKind::ALL;
 const DIMS: [Dim; 5] = [Dim::Pixel, Dim::Time, Dim::Lens, Dim::Light, Dim::Scatter];
 
 fn points(kind: SamplerKind, seed: u64, dim: Dim, n: u32) -> Vec<Point2> {
@@ -13,7 +13,7 @@ fn every_elementary_interval_of_a_sobol_pair_holds_one_point() {
     for m in 1..=8u32 {
         let n = 1 << m;
         for seed in 0..8 {
-            let points = points(SamplerKind::Sobol, seed, Dim::Lens, n);
+            let points = points(SamplerKind::PaddedSobol, seed, Dim::Lens, n);
             for split in 0..=m {
                 let (nx, ny) = (1 << split, 1 << (m - split));
                 let mut seen = vec![0; n as usize];
@@ -30,11 +30,11 @@ fn every_elementary_interval_of_a_sobol_pair_holds_one_point() {
 #[test]
 fn dimensions_pixels_branches_and_seeds_are_uncorrelated() {
     let n = 4096;
-    let base = |i: u32| Sampler::new(SamplerKind::Sobol, 1, [i % 64, i / 64], 0, 16);
+    let base = |i: u32| Sampler::new(SamplerKind::PaddedSobol, 1, [i % 64, i / 64], 0, 16);
     let others: [&dyn Fn(u32) -> f32; 4] = [
         &|i| base(i).d1(Dim::Time),
         &|i| base(i).fork(1).d1(Dim::Light),
-        &|i| Sampler::new(SamplerKind::Sobol, 2, [i % 64, i / 64], 0, 16).d1(Dim::Light),
+        &|i| Sampler::new(SamplerKind::PaddedSobol, 2, [i % 64, i / 64], 0, 16).d1(Dim::Light),
         &|i| base(i + 1).d1(Dim::Light),
     ];
     for other in others {
@@ -56,7 +56,7 @@ fn all_kinds_are_uniform() {
 
 #[test]
 fn the_parts_of_all_samples_are_one_net() {
-    let base = |i: u32| Sampler::new(SamplerKind::Sobol, 3, [5, 9], i, 16).fork(2);
+    let base = |i: u32| Sampler::new(SamplerKind::PaddedSobol, 3, [5, 9], i, 16).fork(2);
     for dim in [Dim::Light, Dim::Scatter] {
         let mut cells = [[0; 8]; 8];
         for p in (0..16).flat_map(|i| (0..4).map(move |j| base(i).split(j, 4).d2(dim))) {
@@ -68,14 +68,14 @@ fn the_parts_of_all_samples_are_one_net() {
 
 #[test]
 fn one_sample_goes_through_the_centre_of_the_pixel() {
-    let s = Sampler::new(SamplerKind::Sobol, 5, [1, 2], 0, 1);
+    let s = Sampler::new(SamplerKind::PaddedSobol, 5, [1, 2], 0, 1);
     assert_eq!(s.d2(Dim::Pixel), Point2::new(0.5, 0.5));
     assert_ne!(s.d2(Dim::Lens), Point2::new(0.5, 0.5));
 }
 
 #[test]
 fn sixteen_samples_hit_all_cells_of_every_dimension_once_c3() {
-    for kind in [SamplerKind::Sobol, SamplerKind::Stratified, SamplerKind::Regular] {
+    for kind in [SamplerKind::PaddedSobol, SamplerKind::Stratified, SamplerKind::Regular] {
         for pixel in 0..200u32 {
             for (dim, way) in DIMS.into_iter().flat_map(|dim| [0, 1, 2].map(|way| (dim, way))) {
                 let at = |i| {
@@ -105,7 +105,7 @@ fn correlation(kind: SamplerKind, i: u32, a: impl Fn(&Sampler) -> f32, b: impl F
 
 #[test]
 fn dimensions_and_bounces_are_uncorrelated_c3() {
-    for kind in [SamplerKind::Sobol, SamplerKind::Stratified, SamplerKind::Independent] {
+    for kind in KINDS.into_iter().filter(|kind| *kind != SamplerKind::Regular) {
         for i in [0, 5] {
             for (k, a) in DIMS.into_iter().enumerate() {
                 for b in DIMS.into_iter().skip(k + 1) {
@@ -140,7 +140,7 @@ fn the_parts_of_all_samples_fill_the_strata_of_all() {
 
 #[test]
 fn shared_samplers_are_spread_over_their_groups() {
-    for kind in [SamplerKind::Sobol, SamplerKind::Stratified] {
+    for kind in [SamplerKind::PaddedSobol, SamplerKind::Stratified] {
         let at = |i: u32| Sampler::new(kind, 3, [5, 9], i, 64).shared_by(4);
         let mut cells = [0; 16];
         for i in 0..64 {
@@ -150,7 +150,7 @@ fn shared_samplers_are_spread_over_their_groups() {
         }
         assert_eq!(cells, [4; 16], "{kind:?}");
     }
-    let only = Sampler::new(SamplerKind::Sobol, 3, [5, 9], 3, 4).shared_by(4);
+    let only = Sampler::new(SamplerKind::PaddedSobol, 3, [5, 9], 3, 4).shared_by(4);
     assert_eq!(only.d2(Dim::Pixel), Point2::new(0.5, 0.5));
 }
 
@@ -168,5 +168,39 @@ fn digits_hold_a_whole_sampler() {
             "0+00000000000000000000000000000000",
         ];
         broken.iter().for_each(|b| assert_eq!(Sampler::from_hex(b), None, "{b}"));
+    }
+}
+
+#[test]
+fn digits_of_earlier_versions_mean_what_they_meant() {
+    let old = "0123456789abcdef00000000500000010";
+    let sampler = Sampler::from_hex(old).expect("a sampler");
+    assert_eq!((sampler.kind, sampler.index, sampler.count), (SamplerKind::PaddedSobol, 5, 16));
+    assert_eq!((sampler.place, sampler.forks, sampler.to_hex().as_str()), (0, 0, old));
+    // Kinds that have no place in the picture take none.
+    assert_eq!(Sampler::from_hex(&format!("{old}0000000100")), None);
+}
+
+#[test]
+fn points_that_are_counted_in_another_way_are_of_another_set() {
+    for kind in [SamplerKind::Sobol, SamplerKind::ZSobol] {
+        let eye = |i: u32| Sampler::new(kind, 3, [5, 9], i, 64);
+        // All parts of a split together, of eye and of the first hit: one net.
+        let mut cells = [[0; 16]; 16];
+        for p in (0..64).flat_map(|i| (0..4).map(move |j| eye(i).fork(2).split(j, 4).d2(Dim::Light))) {
+            cells[(p.y * 16.0) as usize][(p.x * 16.0) as usize] += 1;
+        }
+        assert_eq!(cells, [[1; 16]; 16], "{kind:?}");
+        // Sharing with none, and splitting in one, change nothing.
+        let same = eye(7).fork(2);
+        assert_eq!((same.shared_by(1), same.split(0, 1)), (same, same));
+        // Places that four samples share are spread over the lens of each: 16 times 4 points fill 64 cells of both.
+        let mut pairs = [[0; 16]; 16];
+        for i in 0..64 {
+            let (place, lens) = (eye(i).shared_by(4).d2(Dim::Pixel), eye(i).d2(Dim::Lens));
+            let cell = |p: Point2| (4.0 * p.x) as usize + 4 * (4.0 * p.y) as usize;
+            pairs[cell(place)][cell(lens)] += 1;
+        }
+        assert!(pairs.iter().all(|of_place| of_place.iter().sum::<i32>() == 4), "{kind:?}");
     }
 }

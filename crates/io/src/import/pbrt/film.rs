@@ -48,7 +48,7 @@ const SEED: ParamSpec = ParamSpec::new("seed", ParamType::Int, ParamDefault::Int
 pub(super) const SAMPLER: Schema = Schema {
     name: "sampler",
     aliases: &[],
-    doc: "How many samples per pixel; durer has one sampler and takes no other advice.",
+    doc: "How many samples per pixel, and how they become random numbers.",
     params: &[
         SAMPLES,
         SEED,

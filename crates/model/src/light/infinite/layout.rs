@@ -12,7 +12,7 @@ use durer_core::math::{
 
 /// The map between picture and sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum Layout {
+pub(crate) enum Layout {
     /// Azimuth across, angle from the zenith down.
     LatitudeLongitude,
     /// Every texel sees the same solid angle.
@@ -57,7 +57,7 @@ impl Layout {
     }
 
     /// The unit direction of a place in the picture.
-    pub(in super::super) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
+    pub(crate) fn direction(self, [u, v]: [f32; 2]) -> Vector3 {
         match self {
             Self::LatitudeLongitude => {
                 let (azimuth, from_zenith) = (u * TAU, v * PI);

@@ -5,7 +5,7 @@
 //! from the picture (`blur.rs`, `pyramid.rs`). In the light's own space z is up (`layout.rs`).
 mod blur;
 mod density;
-mod layout;
+pub(crate) mod layout;
 mod panorama;
 mod portal;
 mod pyramid;
