@@ -37,13 +37,13 @@ fn irradiances(prepared: &Prepared, n: u32) -> [(f64, f64); 2] {
     let cx = SampleCx { scene, basis: Basis::Rgb };
     let light_cx = LightCx { basis: Basis::Rgb, time: 0.0 };
     let (mut by_light, mut by_direction) = ([0.0; 2], [0.0; 2]);
-    let mut add = |sums: &mut [f64; 2], value: f64| *sums = [sums[0] + value, sums[1] + value * value];
+    let add = |sums: &mut [f64; 2], value: f64| *sums = [sums[0] + value, sums[1] + value * value];
     for i in 0..n {
         let sampler = Sampler::new(SamplerKind::Independent, 1, [0, 0], i, n);
         let of = |light: &dyn durer::model::light::Light| light.sample(&light_cx, origin, &sampler);
         let sampled = of(&*scene.lights[0]).map_or(0.0, |s| {
             let ray = Ray { t_max: 1.0f32.next_down(), ..Ray::new(origin, s.point.expect("near") - origin) };
-            let is_seen = !scene.occluded(&cx, &ray, &mut NoProbe, Default::default());
+            let is_seen = !scene.occluded(&cx, &ray, &mut NoProbe, ());
             f64::from(s.weight.mean()) * f64::from(s.wi.z.max(0.0)) * f64::from(u8::from(is_seen))
         });
         add(&mut by_light, sampled);
@@ -52,7 +52,7 @@ fn irradiances(prepared: &Prepared, n: u32) -> [(f64, f64); 2] {
         let (r, phi) = (f64::from(1.0 - u.x * u.x).sqrt(), std::f64::consts::TAU * f64::from(u.y));
         let d = Vector3::new((r * phi.cos()) as f32, (r * phi.sin()) as f32, u.x);
         let ray = Ray::new(origin, d);
-        let found = scene.closest(&cx, &ray, &mut NoProbe, Default::default()).map_or(0.0, |hit| {
+        let found = scene.closest(&cx, &ray, &mut NoProbe, ()).map_or(0.0, |hit| {
             let (object, surface) = scene.surface(&ray, &hit);
             let light = scene.object(object).light.expect("a light");
             f64::from(scene.lights[light as usize].emitted(Basis::Rgb, &surface, -d).mean())
