@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn bases_are_the_first_primes() {
-        let is_prime = |n: &u32| (2..*n).all(|d| n % d != 0);
+        let is_prime = |n: &u32| (2..*n).all(|d| !n.is_multiple_of(d));
         let primes: Vec<u32> = (2..).filter(is_prime).take(DIMENSIONS).collect();
         assert_eq!(primes, PRIMES);
     }

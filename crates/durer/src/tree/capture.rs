@@ -12,6 +12,7 @@ use crate::{
 
 use super::{
     document::{Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
+    drawn::drawn,
     ghost::GhostScene,
     material,
     number::{Metres, Number, Place, Rgb, rgb},
@@ -230,7 +231,7 @@ fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
         media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
         lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
-        drawn: node.chosen.as_ref().map(material::drawn),
+        drawn: node.chosen.as_ref().map(drawn),
         random: random(node),
         sampler: Some(node.path.sampler.to_hex()),
         textures: shading.map(|s| material::lookups(scene, &s.textures)).unwrap_or_default(),
@@ -287,6 +288,6 @@ fn world(view: &View, p: Point3) -> Place {
     std::array::from_fn(|i| Metres::short(exact[i], rounded[i]))
 }
 
-fn of(s: Spectrum) -> Rgb {
+pub(super) fn of(s: Spectrum) -> Rgb {
     rgb(Basis::Rgb.to_rgb(s))
 }

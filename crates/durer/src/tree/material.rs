@@ -5,18 +5,14 @@ use crate::{
         bsdf::{FresnelView, LobeView},
         texture::{Looked, TextureLookup},
     },
-    probe::{Choice, ChosenBy, TreeMedia},
-    spectrum::{Basis, Spectrum},
+    probe::TreeMedia,
 };
 
 use super::{
-    document::{Body, Drawn, Fresnel, Lobe, Lookup, Media},
-    number::{Number, Rgb, rgb},
+    capture::of,
+    document::{Body, Fresnel, Lobe, Lookup, Media},
+    number::Number,
 };
-
-fn of(s: Spectrum) -> Rgb {
-    rgb(Basis::Rgb.to_rgb(s))
-}
 
 pub(super) fn media(scene: &Scene, media: &TreeMedia) -> Media {
     let body = |id| {
@@ -51,26 +47,6 @@ pub(super) fn lobe(view: &LobeView) -> Lobe {
         transmittance: of(view.transmittance),
         exponent: view.exponent.map(Number),
         alpha: view.alpha.map(Number),
-    }
-}
-
-pub(super) fn drawn(choice: &Choice) -> Drawn {
-    let from = match choice.by {
-        ChosenBy::Light => "light",
-        ChosenBy::Sharp => "sharp",
-        ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
-    };
-    Drawn {
-        from: from.to_owned(),
-        lobe: choice.lobe.map(str::to_owned),
-        rays: choice.rays,
-        chance: Number(choice.chance),
-        kept: Number(choice.kept),
-        pdf: choice.pdf.map(Number),
-        other_pdf: choice.other_pdf.map(Number),
-        mis: choice.mis.map(Number),
-        f: choice.f.map(of),
-        cos: choice.cos.map(Number),
     }
 }
 

@@ -7,6 +7,7 @@ mod compare;
 mod cut;
 mod document;
 mod dot;
+mod drawn;
 mod find;
 mod format;
 pub mod ghost;
@@ -26,9 +27,10 @@ pub use capture::{Subject, Surroundings};
 pub use compare::{Change, Comparison};
 pub use cut::LeftOut;
 pub use document::{
-    Body, Drawn, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,
+    Body, Fresnel, Light, Limit, Lobe, Lookup, Media, Node, Random, TestedBox, Tests, Tree, VERSION,
 };
 pub use dot::dot;
+pub use drawn::Drawn;
 pub use find::{Find, Found};
 pub use format::{FORMATS, Format};
 pub use ghost::GhostScene;
