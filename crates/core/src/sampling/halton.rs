@@ -20,7 +20,7 @@ pub(super) fn radical_inverse(index: u32, count: u32, dimension: usize, h: u64) 
     let (mut rest, mut cells, mut cell, mut hash) = (u64::from(index), 1u64, 0u64, h);
     while cells < u64::from(count) {
         // Four bytes for each of the two random numbers below the base.
-        let (factor, shift) = ((hash >> 32) * (base - 1) >> 32, (hash & 0xFFFF_FFFF) * base >> 32);
+        let (factor, shift) = (((hash >> 32) * (base - 1)) >> 32, ((hash & 0xFFFF_FFFF) * base) >> 32);
         let digit = rest % base;
         rest /= base;
         cell = cell * base + (digit * (factor + 1) + shift) % base;
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn bases_are_the_first_primes() {
-        let is_prime = |n: &u32| (2..*n).all(|d| n % d != 0);
+        let is_prime = |n: &u32| (2..*n).all(|d| !n.is_multiple_of(d));
         let primes: Vec<u32> = (2..).filter(is_prime).take(DIMENSIONS).collect();
         assert_eq!(primes, PRIMES);
     }
