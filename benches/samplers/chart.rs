@@ -60,11 +60,15 @@ pub(crate) fn svg(scenes: &[(&str, Vec<Measured>)]) -> String {
 fn panel(text: &mut String, title: &str, kinds: &[Measured], of: fn(&Noise) -> f64) {
     let curves: Vec<(SamplerKind, Vec<(f64, f64)>)> = kinds
         .iter()
-        .map(|m| (m.kind, m.noise.iter().map(|(n, v)| (f64::from(*n).log2(), of(v).log10())).collect()))
+        .map(|m| {
+            // A picture without any noise, such as of one sample through the middle of each pixel, has no place here.
+            let noisy = m.noise.iter().filter(|(_, noise)| of(noise) > 1e-12);
+            (m.kind, noisy.map(|(n, v)| (f64::from(*n).log2(), of(v).log10())).collect())
+        })
         .collect();
     let points = || curves.iter().flat_map(|(_, curve)| curve);
     let right = points().map(|p| p.0).fold(2.0, f64::max);
-    let bottom = points().map(|p| p.1).fold(f64::INFINITY, f64::min).floor();
+    let bottom = points().map(|p| p.1).fold(0.0, f64::min).floor();
     let top = points().map(|p| p.1).fold(bottom + 1.0, f64::max).ceil();
     let [x0, y0, x1, y1] = [MARGINS[0], MARGINS[1], WIDTH - MARGINS[2], HEIGHT - MARGINS[3]];
     let at =

@@ -65,10 +65,10 @@ fn run() -> anyhow::Result<()> {
     for name in Subject::NAMES {
         scenes.push((name, measure(&Subject::open(name)?, most)));
     }
+    println!("{:#}", report(&scenes));
     if let Some(file) = chart {
         fs::write(file, chart::svg(&scenes)).with_context(|| format!("{file} cannot be written"))?;
     }
-    println!("{:#}", report(&scenes));
     Ok(())
 }
 

@@ -78,6 +78,19 @@ fn samples_of_a_square_of_pixels_are_a_net_together() {
 }
 
 #[test]
+fn pixels_of_a_column_err_in_all_directions() {
+    // The share of 16 samples left of an upright edge, over the 512 pixels of a column: rounded up in some, down in others.
+    for seed in 0..16 {
+        let covered = |y: u32| {
+            let of = |i| at(SamplerKind::ZSobol, seed, [0, y], (i, 16), 0).d2(Dim::Pixel).x;
+            f64::from((0..16).filter(|i| of(*i) < 0.1).count() as u32) / 16.0
+        };
+        let mean = (0..512).map(covered).sum::<f64>() / 512.0;
+        assert!((mean - 0.1).abs() < 0.01, "seed {seed}: {mean}");
+    }
+}
+
+#[test]
 fn every_number_is_stratified_at_every_vertex() {
     let n = 64u32;
     for kind in STRATIFYING {

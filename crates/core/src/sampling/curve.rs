@@ -16,8 +16,8 @@ const fn spread(x: u32) -> u32 {
 }
 
 /// Where the pixel at the lower 16 bits of `x` and `y` comes. Which two of four squares follow each other, those side by
-/// side, those above each other or those across, a hash says anew in every square. Which of them comes first matters not:
-/// whoever deals out points scrambles that for every dimension.
+/// side, those above each other or those across, and which comes first, a hash says anew in every square: else columns of
+/// pixels would have the same errors.
 pub(super) const fn place(x: u32, y: u32, seed: u32) -> u32 {
     let (x, y) = (spread(x), spread(y));
     let z = x | (y << 1);
@@ -26,7 +26,7 @@ pub(super) const fn place(x: u32, y: u32, seed: u32) -> u32 {
     let stacked = ((owen_scramble(z, !seed) ^ z) >> 1) & LOW & !across;
     let beside = LOW & !across & !stacked;
     let (high, low) = (((x ^ y) & across) | (x & stacked) | (y & beside), (y & stacked) | (x & !stacked));
-    low | (high << 1)
+    owen_scramble(low | (high << 1), seed.rotate_left(16))
 }
 
 #[cfg(test)]
