@@ -9,14 +9,19 @@
 
 mod blurred;
 mod branch;
+mod coat;
 mod draw;
+mod facets;
 mod fresnel;
 mod ggx;
 mod gloss;
 mod glossy;
 mod highlight;
 mod interface;
+mod layered;
 mod lobe;
+mod matte;
+mod phong;
 mod refract;
 mod scatter;
 mod straight;
@@ -29,14 +34,20 @@ use durer_core::{
 
 pub use blurred::{Blur, Blurred};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};
-use fresnel::schlick_rise;
-pub use fresnel::{fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick};
+pub use facets::Facets;
+pub use fresnel::{
+    Reflectance, fresnel_conductor, fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick,
+};
 pub use gloss::Gloss;
 pub use glossy::{Glossy, SMOOTH};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
+pub use layered::{Layered, mirrored_by_layers};
 pub use lobe::Lobe;
+pub use matte::Matte;
+pub use phong::Phong;
 pub use refract::{reflect, refract};
 pub use scatter::Scattered;
 pub use straight::Straight;
@@ -136,7 +147,7 @@ impl Bsdf {
     }
     /// True if light from the other side is scattered to this one.
     pub fn is_frosted(&self) -> bool {
-        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_)))
+        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_) | Lobe::Behind { .. }))
     }
     /// True if no light without extent is reflected: all lobes are perfectly sharp.
     pub fn is_sharp(&self) -> bool {
@@ -148,6 +159,10 @@ impl Bsdf {
                     | Lobe::Glossy(_)
                     | Lobe::Gloss(_)
                     | Lobe::Blurred(_)
+                    | Lobe::Matte(_)
+                    | Lobe::Behind { .. }
+                    | Lobe::Phong(_)
+                    | Lobe::Layered(_)
             )
         })
     }
@@ -158,7 +173,8 @@ impl Bsdf {
             _ => None,
         };
         let diffuse = |lobe: &Lobe| match lobe {
-            Lobe::Diffuse { albedo } => Some(*albedo),
+            Lobe::Diffuse { albedo } | Lobe::Behind { albedo } => Some(*albedo),
+            Lobe::Matte(matte) => Some(matte.albedo()),
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
@@ -168,10 +184,7 @@ impl Bsdf {
     /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
     /// one whose `alpha` is their weighted mean.
     pub fn glossy(&self, wo: Vector3) -> Option<GlossyView> {
-        let views = self.lobes().filter_map(|lobe| match lobe {
-            Lobe::Glossy(glossy) => glossy.view(wo),
-            _ => None,
-        });
+        let views = self.lobes().filter_map(|lobe| lobe.look()?.view(wo));
         let seen = views.reduce(|a, b| {
             let (wa, wb) = (a.weight.mean(), b.weight.mean());
             let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
@@ -200,7 +213,7 @@ impl Bsdf {
     /// Whether directions can be drawn from a lobe.
     pub fn spreads(&self) -> bool {
         self.lobes().any(|lobe| match lobe {
-            Lobe::Gloss(_) | Lobe::Blurred(_) => true,
+            Lobe::Gloss(_) | Lobe::Blurred(_) | Lobe::Phong(_) | Lobe::Layered(_) => true,
             Lobe::Glossy(glossy) => glossy.spreads(),
             _ => false,
         })

@@ -3,13 +3,20 @@
 //! A new material is one file here and one line in [`MATERIALS`].
 
 mod classic;
+mod coatedconductor;
+mod coateddiffuse;
+mod conductor;
+mod detail;
 mod dielectric;
 mod diffuse;
+mod diffusetransmission;
 mod interface;
 mod mirror;
 mod normal_map;
+mod phong;
 mod principled;
 mod roughness;
+mod thindielectric;
 
 use std::fmt::Debug;
 
@@ -17,8 +24,9 @@ use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, ColorInput, Entry};
 
 pub use self::{
-    classic::Classic, dielectric::Dielectric, diffuse::Diffuse, interface::Interface, mirror::Mirror,
-    principled::Principled,
+    classic::Classic, coatedconductor::CoatedConductor, coateddiffuse::CoatedDiffuse, conductor::Conductor,
+    dielectric::Dielectric, diffuse::Diffuse, diffusetransmission::DiffuseTransmission, interface::Interface,
+    mirror::Mirror, phong::Phong, principled::Principled, thindielectric::ThinDielectric,
 };
 use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
@@ -63,20 +71,17 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Classic>(),
     Entry::of::<Principled>(),
     Entry::of::<Interface>(),
+    Entry::of::<Conductor>(),
+    Entry::of::<CoatedDiffuse>(),
+    Entry::of::<CoatedConductor>(),
+    Entry::of::<ThinDielectric>(),
+    Entry::of::<DiffuseTransmission>(),
+    Entry::of::<Phong>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
-pub const NOT_YET: &[(&str, &str)] = &[
-    ("conductor", "mirror"),
-    ("coateddiffuse", "diffuse"),
-    ("coatedconductor", "mirror"),
-    ("diffusetransmission", "diffuse"),
-    ("thindielectric", "dielectric"),
-    ("hair", "diffuse"),
-    ("measured", "diffuse"),
-    ("mix", "diffuse"),
-    ("subsurface", "diffuse"),
-];
+pub const NOT_YET: &[(&str, &str)] =
+    &[("hair", "diffuse"), ("measured", "diffuse"), ("mix", "diffuse"), ("subsurface", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)
@@ -96,13 +101,4 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
 fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
     cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
-}
-
-/// Warns about each of the parameters `names` that the file gives.
-fn warn_unsupported(args: &mut Args<'_>, names: &[&str]) {
-    for name in names {
-        if args.is_set(name) {
-            args.warning(name, format!("\"{name}\" is not supported yet and has no effect"));
-        }
-    }
 }

@@ -17,7 +17,7 @@ use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, P
 use super::{Material, normal_map, share, share_input};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Glossy, Lobe, normal_reflectance},
+    bsdf::{Bsdf, Facets, Glossy, Lobe, Reflectance, normal_reflectance},
     texture::TextureAt,
 };
 
@@ -192,9 +192,8 @@ impl Material for Principled {
 
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
         let dielectric = Glossy {
-            f0: dielectric_f0,
-            f90: Spectrum::ONE,
-            alpha: sqr(unit(self.roughness)),
+            reflectance: Reflectance::Schlick { f0: dielectric_f0, f90: Spectrum::ONE },
+            facets: Facets::round(sqr(unit(self.roughness))),
             scale: coverage,
         };
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
@@ -202,10 +201,11 @@ impl Material for Principled {
         let body = base * below * ((1.0 - metallic) * coverage);
 
         let f0 = dielectric_f0 * (1.0 - metallic) + base * metallic;
+        let reflectance = Reflectance::Schlick { f0, f90: Spectrum::ONE };
         let passing = body * transmission + Spectrum::splat(1.0 - coverage);
         Bsdf::default()
             .with(Lobe::Diffuse { albedo: body * (1.0 - transmission) })
-            .with(Lobe::Glossy(Glossy { f0, ..dielectric }))
+            .with(Lobe::Glossy(Glossy { reflectance, ..dielectric }))
             .with(Lobe::PassThrough { weight: passing })
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {

@@ -1,0 +1,93 @@
+//! Every registered material, with its defaults and with parameters that stretch it: no more leaves than arrives.
+use durer_core::{
+    math::{Normal3, Point2, Point3, Vector3},
+    spectrum::Basis,
+};
+use durer_model::{
+    ShadeCx, Surface,
+    material::{MATERIALS, Material},
+};
+use durer_scene::{Args, Data, Diagnostics, Node, ParamType, Params, ValueType, find};
+use durer_testkit::random::Random;
+
+use super::{sampling::energy, seen_from, slow};
+
+const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[], log: None };
+
+fn place() -> Surface {
+    Surface {
+        p: Point3::ZERO,
+        p_error: Vector3::ZERO,
+        n_g: Normal3::new(0.0, 0.0, 1.0),
+        n_s: Normal3::new(0.0, 0.0, 1.0),
+        uv: Point2::new(0.5, 0.5),
+        second_uv: Point2::new(0.5, 0.5),
+        dpdu: Vector3::new(2.0, 1.0, 0.0),
+        dpdv: Vector3::new(0.0, 0.5, 0.0),
+        vertex_color: [1.0; 4],
+    }
+}
+
+/// The material; `None` if it does not take these parameters.
+fn built(kind: &str, params: Params) -> Option<Box<dyn Material>> {
+    let mut diagnostics = Diagnostics::default();
+    let node = Node::new(kind, params);
+    let entry = find(MATERIALS, "material", &node, &mut diagnostics).expect("a registered material");
+    let mut args = Args::check(&node, entry.schema, &[], &mut diagnostics);
+    let material = args.is_sound().then(|| (entry.build)(&mut args)).flatten();
+    material.filter(|_| !diagnostics.has_errors())
+}
+
+/// Every number of a schema that has a range from 0 to 1, all at once or one by one at an end, and all colours white.
+fn stretched() -> Vec<(String, Box<dyn Material>)> {
+    let mut all = Vec::new();
+    for entry in MATERIALS.iter().filter(|e| e.schema.name != "classic") {
+        let mut sets = vec![Params::new()];
+        let white =
+            |params: Params, name: &str| params.with(name, ValueType::Rgb, Data::Floats(vec![1.0; 3]));
+        for spec in entry.schema.params {
+            match spec.ty {
+                ParamType::Float | ParamType::FloatTexture if spec.range == (0.0, 1.0) => {
+                    sets.extend([0.1, 0.5, 1.0].map(|v| Params::new().float(spec.name, v)));
+                }
+                ParamType::FloatTexture if spec.range == (0.0, 90.0) => {
+                    sets.push(Params::new().float(spec.name, 90.0));
+                }
+                ParamType::ColorTexture if spec.name != "normal" => {
+                    sets.push(white(Params::new(), spec.name));
+                    let rough = Params::new().float("roughness", 0.3);
+                    sets.push(white(rough, spec.name));
+                }
+                ParamType::Choice(words) => {
+                    sets.extend(words.iter().map(|word| Params::new().string(spec.name, word)));
+                }
+                _ => {}
+            }
+        }
+        for params in sets {
+            if let Some(material) = built(entry.schema.name, params.clone()) {
+                all.push((format!("{} {params:?}", entry.schema.name), material));
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn no_material_scatters_more_than_arrives() {
+    let mut random = Random::new(91);
+    let count = if slow() { 100_000 } else { 4_000 };
+    let all = stretched();
+    assert!(all.len() > MATERIALS.len() * 3, "{}", all.len());
+    for (name, material) in all {
+        for wo in seen_from() {
+            let mut surface = place();
+            let bsdf = material.bsdf(&CX, &mut surface, wo);
+            let local = surface.frame().to_local(wo);
+            let (mean, sigma) = energy(&bsdf, local, count, &mut random);
+            // The table of the split sum is good to a percent.
+            assert!(mean <= 1.0 + 4.0 * sigma + 0.012, "{name} {wo:?}: {mean} +- {sigma}");
+            assert!(bsdf.albedo().max() <= 1.0 && bsdf.ambient().max() <= 1.001, "{name}");
+        }
+    }
+}
