@@ -55,6 +55,9 @@ impl Body {
     pub(super) fn directional_albedo(&self, wo: Vector3) -> Spectrum {
         self.color * (self.passage.at(wo.z.abs()) * self.mean)
     }
+    pub(super) fn scaled(self, by: f32) -> Self {
+        Self { color: self.color * by, ..self }
+    }
     /// Share of the light of a uniform sky that leaves towards the viewer.
     pub(super) fn albedo(&self) -> Spectrum {
         self.color * (self.mean * self.towards)

@@ -39,6 +39,8 @@ pub struct Layered {
     pub bounces: u16,
     /// Walks per value.
     pub walks: u16,
+    /// Factor on the whole lobe, in `[0, 1]`.
+    pub scale: f32,
 }
 
 /// Numbers that follow from two directions (the mixing function is that of Steele, Lea and Flood 2014, "Fast Splittable
@@ -91,7 +93,7 @@ impl Layered {
         let (o, i) = if wo.z < 0.0 { (-wo, -wi) } else { (wo, wi) };
         let mut dice = Dice::new(o, i);
         let sum = (0..self.walks).fold(Spectrum::BLACK, |sum, _| sum + self.walk(o, i, &mut dice));
-        sum * (1.0 / (f32::from(self.walks) * sqr(self.eta)))
+        sum * (self.scale / (f32::from(self.walks) * sqr(self.eta)))
     }
 
     fn walk(&self, o: Vector3, i: Vector3, dice: &mut Dice) -> Spectrum {
@@ -202,7 +204,7 @@ impl Layered {
         let [facets, _] = self.widths();
         let outside = Spectrum::splat(sqr(1.0 - fresnel_dielectric(1.0, self.eta)));
         let f0 = self.fresnel(1.0) * outside;
-        Glossy { reflectance: Reflectance::Schlick { f0, f90: Spectrum::BLACK }, facets, scale: 1.0 }
+        Glossy { reflectance: Reflectance::Schlick { f0, f90: Spectrum::BLACK }, facets, scale: self.scale }
     }
 
     /// Share of light that passes a smooth coat from `wo` and out again, more or less.

@@ -175,9 +175,27 @@ impl Lobe {
             Self::Matte(matte) => matte.albedo(),
             Self::Behind { albedo } => *albedo,
             Self::Phong(phong) => phong.specular,
-            Self::Layered(layered) => layered.look().reflectance.ends().0,
+            Self::Layered(layered) => layered.look().reflectance.ends().0 * layered.scale,
             Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
+        }
+    }
+    /// The same lobe, dimmed: its share in a mixture.
+    pub(super) fn scaled(self, by: f32) -> Self {
+        match self {
+            Self::Diffuse { albedo } => Self::Diffuse { albedo: albedo * by },
+            Self::Ambient { coefficient } => Self::Ambient { coefficient: coefficient * by },
+            Self::Highlight(h) => Self::Highlight(Highlight { specular: h.specular * by, ..h }),
+            Self::Glossy(g) => Self::Glossy(Glossy { scale: g.scale * by, ..g }),
+            Self::Mirror { weight } => Self::Mirror { weight: weight * by },
+            Self::Interface(interface) => Self::Interface(interface.scaled(by)),
+            Self::Gloss(g) => Self::Gloss(Gloss { weight: g.weight * by, ..g }),
+            Self::Blurred(b) => Self::Blurred(Blurred { interface: b.interface.scaled(by), ..b }),
+            Self::Matte(matte) => Self::Matte(matte.scaled(by)),
+            Self::Behind { albedo } => Self::Behind { albedo: albedo * by },
+            Self::Phong(p) => Self::Phong(Phong { specular: p.specular * by, ..p }),
+            Self::Layered(l) => Self::Layered(Layered { scale: l.scale * by, ..l }),
+            Self::PassThrough { weight } => Self::PassThrough { weight: weight * by },
         }
     }
 }

@@ -21,8 +21,10 @@ use super::coat::Body;
 pub enum Matte {
     /// Rough diffuse reflection.
     Rough {
-        /// `rho`: about the share of light reflected, in `[0, 1]`; at 1 nothing is lost.
-        albedo: Spectrum,
+        /// `rho`: what of light is left after one bounce, in `[0, 1]`.
+        once: Spectrum,
+        /// `rho_ms`: the same for light that bounces more than once.
+        more: Spectrum,
         /// `r`, in `[0, 1]`: 0 is Lambert's law.
         roughness: f32,
     },
@@ -34,22 +36,38 @@ pub enum Matte {
 const C: [f32; 2] = [0.5 - 2.0 / (3.0 * PI), 2.0 / 3.0 - 28.0 / (15.0 * PI)];
 
 impl Matte {
+    /// Rough diffuse reflection: `albedo` is about the share of light reflected, in `[0, 1]`; at 1 nothing is lost.
+    /// `roughness` is in `[0, 1]`.
+    pub fn rough(albedo: Spectrum, roughness: f32) -> Self {
+        let mean = mean(roughness);
+        let more = albedo.map(|rho| sqr(rho) * mean / (1.0 - rho * (1.0 - mean)));
+        Self::Rough { once: albedo, more, roughness }
+    }
+    /// The same, dimmed.
+    pub(super) fn scaled(self, by: f32) -> Self {
+        match self {
+            Self::Rough { once, more, roughness } => {
+                Self::Rough { once: once * by, more: more * by, roughness }
+            }
+            Self::Coated(body) => Self::Coated(body.scaled(by)),
+        }
+    }
     /// Value without the cosine, 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         if wo.z * wi.z <= 0.0 {
             return Spectrum::BLACK;
         }
         match self {
-            Self::Rough { albedo, roughness } => rough(*albedo, *roughness, wo, wi),
+            Self::Rough { once, more, roughness } => rough((*once, *more), *roughness, wo, wi),
             Self::Coated(body) => body.eval(wo, wi),
         }
     }
     /// Share of the light of a uniform sky that leaves towards `wo`.
     pub(super) fn directional_albedo(&self, wo: Vector3) -> Spectrum {
         match self {
-            Self::Rough { albedo, roughness } => {
+            Self::Rough { once, more, roughness } => {
                 let single = single(wo.z.abs().min(1.0), *roughness);
-                multiple(*albedo, *roughness) * (1.0 - single) + *albedo * single
+                *more * (1.0 - single) + *once * single
             }
             Self::Coated(body) => body.directional_albedo(wo),
         }
@@ -57,9 +75,9 @@ impl Matte {
     /// Share of the light of a uniform sky that leaves: on the whole, or of coats towards the viewer.
     pub fn albedo(&self) -> Spectrum {
         match self {
-            Self::Rough { albedo, roughness } => {
+            Self::Rough { once, more, roughness } => {
                 let single = mean(*roughness);
-                multiple(*albedo, *roughness) * (1.0 - single) + *albedo * single
+                *more * (1.0 - single) + *once * single
             }
             Self::Coated(body) => body.albedo(),
         }
@@ -82,13 +100,7 @@ fn mean(roughness: f32) -> f32 {
     (1.0 + C[1] * roughness) / (1.0 + C[0] * roughness)
 }
 
-/// Albedo of what bounces more than once.
-fn multiple(albedo: Spectrum, roughness: f32) -> Spectrum {
-    let mean = mean(roughness);
-    albedo.map(|rho| sqr(rho) * mean / (1.0 - rho * (1.0 - mean)))
-}
-
-fn rough(albedo: Spectrum, roughness: f32, wo: Vector3, wi: Vector3) -> Spectrum {
+fn rough((albedo, multiple): (Spectrum, Spectrum), roughness: f32, wo: Vector3, wi: Vector3) -> Spectrum {
     let (co, ci) = (wo.z.abs().min(1.0), wi.z.abs().min(1.0));
     let s = wo.dot(wi) - co * ci;
     let s = if s > 0.0 { s / co.max(ci) } else { s };
@@ -98,5 +110,5 @@ fn rough(albedo: Spectrum, roughness: f32, wo: Vector3, wi: Vector3) -> Spectrum
         return albedo * (FRAC_1_PI * once);
     }
     let more = (1.0 - single(co, roughness)) * (1.0 - single(ci, roughness)) / lost;
-    (albedo * once.max(0.0) + multiple(albedo, roughness) * more.max(0.0)) * FRAC_1_PI
+    (albedo * once.max(0.0) + multiple * more.max(0.0)) * FRAC_1_PI
 }

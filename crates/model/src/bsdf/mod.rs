@@ -84,7 +84,7 @@ impl Default for Bsdf {
 
 impl Bsdf {
     /// Most lobes a material can return.
-    pub const MOST_LOBES: usize = 4;
+    pub const MOST_LOBES: usize = 7;
 
     /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
     #[must_use]
@@ -105,6 +105,14 @@ impl Bsdf {
             *place = Some(lobe);
             self.count += 1;
         }
+    }
+    /// The share `t` of `other` and the rest of this one; `None` if that is more than [`Bsdf::MOST_LOBES`].
+    pub fn mixed(&self, other: &Self, t: f32) -> Option<Self> {
+        if self.count + other.count > Self::MOST_LOBES {
+            return None;
+        }
+        let own = self.lobes().map(|lobe| lobe.scaled(1.0 - t));
+        Some(own.chain(other.lobes().map(|lobe| lobe.scaled(t))).fold(Self::default(), Self::with))
     }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {

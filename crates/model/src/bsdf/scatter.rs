@@ -181,7 +181,9 @@ impl Lobe {
             Self::Diffuse { albedo } | Self::Behind { albedo } => albedo.mean(),
             Self::Matte(matte) => matte.directional_albedo(wo).mean(),
             Self::Phong(phong) => phong.specular.mean(),
-            Self::Layered(layered) => layered.look().reflectance.ends().0.mean() * layered.passed(wo),
+            Self::Layered(layered) => {
+                layered.look().reflectance.ends().0.mean() * layered.passed(wo) * layered.scale
+            }
             Self::Highlight(highlight) => highlight.specular.mean(),
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
             Self::Mirror { weight } | Self::PassThrough { weight } => weight.mean(),

@@ -94,6 +94,7 @@ impl Material for CoatedConductor {
             metal: below,
             bounces: bounces as u16,
             walks: walks as u16,
+            scale: 1.0,
         };
         Bsdf::default().with(Lobe::Layered(layered)).with(reflecting(Reflectance::dielectric(eta), coat, cos))
     }

@@ -52,7 +52,7 @@ impl Material for Diffuse {
         let albedo = share(cx, self.reflectance, &at);
         let roughness = (cx.float(self.sigma, &at) / 90.0).clamp(0.0, 1.0);
         Bsdf::default().with(match roughness > 0.0 {
-            true => Lobe::Matte(Matte::Rough { albedo, roughness }),
+            true => Lobe::Matte(Matte::rough(albedo, roughness)),
             false => Lobe::Diffuse { albedo },
         })
     }

@@ -12,6 +12,7 @@ mod diffuse;
 mod diffusetransmission;
 mod interface;
 mod mirror;
+mod mix;
 mod normal_map;
 mod phong;
 mod principled;
@@ -26,7 +27,7 @@ use durer_scene::{Args, ColorInput, Entry};
 pub use self::{
     classic::Classic, coatedconductor::CoatedConductor, coateddiffuse::CoatedDiffuse, conductor::Conductor,
     dielectric::Dielectric, diffuse::Diffuse, diffusetransmission::DiffuseTransmission, interface::Interface,
-    mirror::Mirror, phong::Phong, principled::Principled, thindielectric::ThinDielectric,
+    mirror::Mirror, mix::Mix, phong::Phong, principled::Principled, thindielectric::ThinDielectric,
 };
 use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
@@ -77,11 +78,12 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<ThinDielectric>(),
     Entry::of::<DiffuseTransmission>(),
     Entry::of::<Phong>(),
+    Entry::of::<Mix>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
 pub const NOT_YET: &[(&str, &str)] =
-    &[("hair", "diffuse"), ("measured", "diffuse"), ("mix", "diffuse"), ("subsurface", "diffuse")];
+    &[("hair", "diffuse"), ("measured", "diffuse"), ("subsurface", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)

@@ -50,6 +50,7 @@ pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
         metal,
         bounces: 5,
         walks: 1,
+        scale: 1.0,
     })
 }
 
@@ -71,8 +72,8 @@ pub(super) fn spread() -> Vec<Lobe> {
         metal(brushed(0.2, 0.9)),
         frosted(1.5, round(0.4)),
         frosted(1.0 / 1.33, brushed(0.25, 0.6)),
-        Lobe::Matte(Matte::Rough { albedo: Spectrum::ONE, roughness: 1.0 }),
-        Lobe::Matte(Matte::Rough { albedo: grey(0.5), roughness: 0.4 }),
+        Lobe::Matte(Matte::rough(Spectrum::ONE, 1.0)),
+        Lobe::Matte(Matte::rough(grey(0.5), 0.4)),
         coated(1.0, 0.0, 5),
         coated(0.8, 0.4, 5),
         phong(1.0, false),

@@ -7,7 +7,7 @@ use durer_model::{
     ShadeCx, Surface,
     material::{MATERIALS, Material},
 };
-use durer_scene::{Args, Data, Diagnostics, Node, ParamType, Params, ValueType, find};
+use durer_scene::{Args, Data, Diagnostics, NamedNode, Node, ParamType, Params, ValueType, find};
 use durer_testkit::random::Random;
 
 use super::{sampling::energy, seen_from, slow};
@@ -90,4 +90,48 @@ fn no_material_scatters_more_than_arrives() {
             assert!(bsdf.albedo().max() <= 1.0 && bsdf.ambient().max() <= 1.001, "{name}");
         }
     }
+}
+
+/// A mixture of two described materials.
+fn mixture(first: Node, second: Node, amount: f32) -> Option<Box<dyn Material>> {
+    let before =
+        [("first", first), ("second", second)].map(|(name, node)| NamedNode { name: name.into(), node });
+    let names = Data::Strings(vec!["first".into(), "second".into()]);
+    let params = Params::new().with("materials", ValueType::String, names).float("amount", amount);
+    let mut diagnostics = Diagnostics::default();
+    let node = Node::new("mix", params);
+    let entry = find(MATERIALS, "material", &node, &mut diagnostics).expect("a registered material");
+    let mut args = Args::check(&node, entry.schema, &[], &mut diagnostics).with_before(&before);
+    (entry.build)(&mut args).filter(|_| args.is_sound())
+}
+
+#[test]
+fn mixtures_are_weighted_sums() {
+    let grey = |v: f32| Node::new("diffuse", Params::new().rgb("reflectance", [v; 3]));
+    let mirror = || Node::new("mirror", Params::new().rgb("reflectance", [0.5; 3]));
+    let wo = seen_from()[0];
+    let bsdf = |material: Box<dyn Material>| material.bsdf(&CX, &mut place(), wo);
+    let mixed = bsdf(mixture(grey(0.8), mirror(), 0.25).expect("two materials"));
+    assert!((mixed.ambient().mean() - 0.6).abs() < 1e-6);
+    let branches: Vec<_> = mixed.branches(wo).iter().map(|b| b.weight.mean()).collect();
+    assert_eq!(branches, [0.125]);
+    let mut random = Random::new(92);
+    let (mean, sigma) = energy(&mixed, wo, 20_000, &mut random);
+    assert!((mean - 0.725).abs() < 4.0 * sigma + 1e-4, "{mean} +- {sigma}");
+    // A hole is mixed in as something clear; two are a hole.
+    let hole = || Node::new("interface", Params::new());
+    let half = mixture(grey(1.0), hole(), 0.5).expect("two materials");
+    assert!(half.is_passed() && !half.is_hole(&CX, &place().texture_at()));
+    assert_eq!(bsdf(half).branches(wo).iter().map(|b| b.weight.mean()).collect::<Vec<_>>(), [0.5]);
+    assert!(mixture(hole(), hole(), 0.5).expect("two").is_hole(&CX, &place().texture_at()));
+    // Ends are one of both.
+    assert_eq!(bsdf(mixture(grey(0.8), mirror(), 1.0).expect("two")).ambient().mean(), 0.0);
+    assert!(mixture(grey(0.8), Node::new("mixed", Params::new()), 0.5).is_none());
+}
+
+#[test]
+fn mixtures_name_only_what_comes_before_them() {
+    let names = Data::Strings(vec!["first".into(), "second".into()]);
+    let own = Node::new("mix", Params::new().with("materials", ValueType::String, names));
+    assert!(mixture(own, Node::new("diffuse", Params::new()), 0.5).is_none());
 }

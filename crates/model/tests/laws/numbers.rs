@@ -111,7 +111,7 @@ fn phong_is_normalised_e6() {
 #[test]
 fn white_clay_loses_nothing() {
     for roughness in [0.1, 0.5, 1.0] {
-        let lobe = Lobe::Matte(Matte::Rough { albedo: Spectrum::ONE, roughness });
+        let lobe = Lobe::Matte(Matte::rough(Spectrum::ONE, roughness));
         for cos in [1.0, 0.7, 0.3, 0.05] {
             let wo = seen_under(cos);
             let sum = cosine_hemisphere(128, |wi| f64::from(lobe.eval(wo, v(wi)).mean()));
@@ -172,5 +172,25 @@ fn layers_tend_to_their_smooth_limit() {
             );
             assert!(sigma < 0.02 * inside, "{cos} {coat} {base}: noisy, {sigma}");
         }
+    }
+}
+
+/// An independent walk in double precision (10^6 paths) with consistent weights. pbrt-v4's estimator gives 0.0606, 0.0530
+/// and 0.0554 here, 7 to 12 % more: where it weighs a direction `w` below the coat that the body sent, it uses the density
+/// with which the coat, seen from `w`, sends light out to `wi` (per solid angle outside), but where it weighs one that the
+/// coat took from `wi`, the density of that (per solid angle inside). The two weights of a direction then sum to more than
+/// 1, by `p_b² / (p_b² + p_out²) - p_b² / (p_b² + p_in²)`, with `p_b` the body's density; narrow coats hide it, as `p_b` is
+/// small beside either.
+#[test]
+fn a_rough_coat_gives_back_what_the_walk_does() {
+    let lobe = coated(0.4, 0.15f32.sqrt(), 5);
+    let at = |x: f32, y: f32| Vector3::new(x, y, (1.0 - x * x - y * y).sqrt());
+    for (o, i, expected) in [
+        (at(0.6, 0.0), at(-0.3, 0.2), 0.056_422),
+        (at(0.9, 0.0), at(-0.8, 0.3), 0.047_925),
+        (at(0.3, 0.1), at(0.95, 0.0), 0.049_331),
+    ] {
+        let got = lobe.eval(o, i).mean();
+        assert!((got - expected).abs() < 2e-3 * expected, "{o:?} {i:?}: {got} {expected}");
     }
 }
