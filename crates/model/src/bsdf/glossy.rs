@@ -20,6 +20,12 @@ use durer_core::{
 
 use super::{Branch, BranchKind, Drawn, Facets, GlossyView, Reflectance, lobe::mirrored};
 
+/// Share of a uniform sky that white facets of width `alpha` send towards a cosine after one bounce, by the table.
+pub(super) fn single_scattered(cos: f32, alpha: f32) -> f32 {
+    let (a, b) = albedo::split_sum(cos, alpha);
+    a + b
+}
+
 /// Below this `alpha` the lobe is a mirror.
 pub const SMOOTH: f32 = 1e-3;
 /// Up to this `alpha` the mirror branch carries everything.

@@ -181,7 +181,8 @@ impl Lobe {
         }
     }
     /// The same lobe, dimmed: its share in a mixture.
-    pub(super) fn scaled(self, by: f32) -> Self {
+    #[must_use]
+    pub(crate) fn scaled(self, by: f32) -> Self {
         match self {
             Self::Diffuse { albedo } => Self::Diffuse { albedo: albedo * by },
             Self::Ambient { coefficient } => Self::Ambient { coefficient: coefficient * by },

@@ -14,7 +14,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::coat::Body;
+use super::{Bounced, Sheen, coat::Body};
 
 /// A broad lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,10 @@ pub enum Matte {
     },
     /// A body under a clear coat.
     Coated(Body),
+    /// Fibres on top.
+    Sheen(Sheen),
+    /// What glossy lobes lose between their facets.
+    Bounced(Bounced),
 }
 
 /// `1/2 - 2 / (3 pi)` and `2/3 - 28 / (15 pi)`.
@@ -50,6 +54,8 @@ impl Matte {
                 Self::Rough { once: once * by, more: more * by, roughness }
             }
             Self::Coated(body) => Self::Coated(body.scaled(by)),
+            Self::Sheen(sheen) => Self::Sheen(Sheen { color: sheen.color * by, ..sheen }),
+            Self::Bounced(bounced) => Self::Bounced(bounced.scaled(by)),
         }
     }
     /// Value without the cosine, 1/sr.
@@ -60,6 +66,8 @@ impl Matte {
         match self {
             Self::Rough { once, more, roughness } => rough((*once, *more), *roughness, wo, wi),
             Self::Coated(body) => body.eval(wo, wi),
+            Self::Sheen(sheen) => sheen.eval(wo, wi),
+            Self::Bounced(bounced) => bounced.eval(wo, wi),
         }
     }
     /// Share of the light of a uniform sky that leaves towards `wo`.
@@ -70,6 +78,8 @@ impl Matte {
                 *more * (1.0 - single) + *once * single
             }
             Self::Coated(body) => body.directional_albedo(wo),
+            Self::Sheen(sheen) => sheen.color * sheen.hidden,
+            Self::Bounced(bounced) => bounced.directional_albedo(wo),
         }
     }
     /// Share of the light of a uniform sky that leaves: on the whole, or of coats towards the viewer.
@@ -80,6 +90,8 @@ impl Matte {
                 *more * (1.0 - single) + *once * single
             }
             Self::Coated(body) => body.albedo(),
+            Self::Sheen(sheen) => sheen.color * sheen.hidden,
+            Self::Bounced(bounced) => bounced.albedo(),
         }
     }
 }

@@ -8,6 +8,7 @@
 //! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
 
 mod blurred;
+mod bounced;
 mod branch;
 mod coat;
 mod draw;
@@ -33,6 +34,7 @@ use durer_core::{
 };
 
 pub use blurred::{Blur, Blurred};
+pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
 pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};

@@ -11,7 +11,7 @@ use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Sc
 use super::{Material, detail::Detail, roughness::Roughness, share_input};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Facets, Glossy, Lobe, Reflectance},
+    bsdf::{Bounced, Bsdf, Facets, Glossy, Lobe, Matte, Reflectance},
     texture::TextureAt,
 };
 
@@ -20,6 +20,7 @@ use crate::{
 pub struct Conductor {
     metal: Metal,
     roughness: Roughness,
+    compensates: bool,
     detail: Detail,
 }
 
@@ -102,6 +103,14 @@ impl Metal {
     }
 }
 
+/// Whether light that bounces several times between microfacets is added.
+const COMPENSATION: ParamSpec = ParamSpec::new(
+    "energycompensation",
+    ParamType::Bool,
+    ParamDefault::Bool(false),
+    "Adds the light that bounces several times between microfacets: rough metal is brighter.",
+);
+
 impl Kind for Conductor {
     type Output = Box<dyn Material>;
     const SCHEMA: Schema = Schema {
@@ -116,6 +125,7 @@ impl Kind for Conductor {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            COMPENSATION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -124,6 +134,7 @@ impl Kind for Conductor {
         Some(Box::new(Self {
             metal: Metal::read(args, Words::USUAL, 1.0),
             roughness: Roughness::read(args),
+            compensates: args.bool(COMPENSATION.name),
             detail: Detail::read(args),
         }))
     }
@@ -143,6 +154,10 @@ impl Material for Conductor {
         let reflectance = self.metal.at(cx, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
-        Bsdf::default().with(reflecting(reflectance, facets, cos))
+        let single = Bsdf::default().with(reflecting(reflectance, facets, cos));
+        match Bounced::of(&reflectance, &facets).filter(|_| self.compensates) {
+            Some(lost) => single.with(Lobe::Matte(Matte::Bounced(lost))),
+            None => single,
+        }
     }
 }

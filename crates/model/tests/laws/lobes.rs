@@ -2,8 +2,8 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Blur, Blurred, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
-    Reflectance, Split,
+    Blur, Blurred, Bounced, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
+    Reflectance, Sheen, Split,
 };
 
 /// Grey of a value.
@@ -54,6 +54,13 @@ pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
     })
 }
 
+/// What white facets of this width lose.
+pub(super) fn bounced(alpha: f32) -> Lobe {
+    let white = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    let lost = Bounced::of(&white, &Facets::round(alpha)).expect("rough facets");
+    Lobe::Matte(Matte::Bounced(lost))
+}
+
 /// Lobes that spread, wide enough for the cells of a histogram.
 pub(super) fn spread() -> Vec<Lobe> {
     let round = Facets::round;
@@ -75,6 +82,9 @@ pub(super) fn spread() -> Vec<Lobe> {
         Lobe::Matte(Matte::rough(Spectrum::ONE, 1.0)),
         Lobe::Matte(Matte::rough(grey(0.5), 0.4)),
         coated(1.0, 0.0, 5),
+        Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.5, Vector3::new(0.6, 0.0, 0.8)))),
+        Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.05, Vector3::new(0.6, 0.0, 0.8)))),
+        bounced(0.8),
         coated(0.8, 0.4, 5),
         phong(1.0, false),
         phong(40.0, false),
@@ -113,6 +123,8 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Phong(_) => 11,
         Lobe::Layered(_) => 12,
         Lobe::PassThrough { .. } => 13,
+        Lobe::Matte(Matte::Sheen(_)) => 14,
+        Lobe::Matte(Matte::Bounced(_)) => 15,
     }
 }
 
@@ -121,5 +133,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..14).collect::<Vec<_>>());
+    assert_eq!(here, (0..16).collect::<Vec<_>>());
 }

@@ -64,6 +64,9 @@ fn stretched() -> Vec<(String, Box<dyn Material>)> {
                 _ => {}
             }
         }
+        if entry.schema.name == "principled" {
+            sets.extend(everything());
+        }
         for params in sets {
             if let Some(material) = built(entry.schema.name, params.clone()) {
                 all.push((format!("{} {params:?}", entry.schema.name), material));
@@ -71,6 +74,46 @@ fn stretched() -> Vec<(String, Box<dyn Material>)> {
         }
     }
     all
+}
+
+/// The glTF material with all of its extensions at once.
+fn everything() -> Vec<Params> {
+    let all = |thickness: f32, roughness: f32| {
+        Params::new()
+            .float("roughness", roughness)
+            .float("clearcoat", 0.7)
+            .float("clearcoatroughness", 0.4)
+            .rgb("sheencolor", [0.9, 0.5, 0.2])
+            .float("sheenroughness", 0.6)
+            .float("anisotropy", 0.8)
+            .float("iridescence", 0.5)
+            .float("diffusetransmission", 0.4)
+            .float("transmission", 0.5)
+            .float("thickness", thickness)
+            .float("metallic", 0.2)
+            .rgb("specularcolor", [1.0, 0.4, 0.4])
+    };
+    [(0.0, 0.5), (0.01, 0.5), (0.01, 0.0)].map(|(thickness, roughness)| all(thickness, roughness)).into()
+}
+
+#[test]
+fn brushed_metal_reflects_more_along_the_brush_and_bodies_have_a_medium() {
+    let up = Vector3::new(0.0, 0.0, 1.0);
+    let brushed = Params::new().float("metallic", 1.0).float("roughness", 0.3).float("anisotropy", 0.9);
+    let mut surface = Surface { dpdu: Vector3::new(0.0, 3.0, 0.0), ..place() };
+    let bsdf = built("principled", brushed).expect("sound").bsdf(&CX, &mut surface, up);
+    let [across, along] = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.0, 0.6, 0.8)]
+        .map(|wi| bsdf.eval(surface.frame().to_local(up), surface.frame().to_local(wi)).mean());
+    assert!(along > 5.0 * across, "{along} {across}");
+
+    let glass = Params::new().float("transmission", 1.0).float("thickness", 0.1).float("eta", 1.4);
+    let glass = glass.rgb("attenuationcolor", [0.25, 1.0, 1.0]).float("attenuationdistance", 2.0);
+    let glass = built("principled", glass).expect("sound");
+    let medium = glass.medium().expect("a body");
+    assert_eq!(medium.eta, 1.4);
+    let left = Basis::Rgb.to_rgb(medium.transmittance(Basis::Rgb, 2.0));
+    assert!((left[0] - 0.25).abs() < 1e-6 && left[1] == 1.0, "{left:?}");
+    assert!(!glass.is_passed() && built("principled", Params::new()).expect("sound").medium().is_none());
 }
 
 #[test]

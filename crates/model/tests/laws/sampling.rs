@@ -1,5 +1,8 @@
 //! Lobes and whole materials, drawn from: density, weight, energy, reciprocity.
-use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_core::{
+    math::Vector3,
+    spectrum::{Basis, Spectrum},
+};
 use durer_model::bsdf::{BranchKind, Bsdf, Lobe};
 use durer_testkit::{DVec3, chi_square::Histogram, quadrature, random::Random};
 
@@ -85,18 +88,21 @@ fn weights_are_the_value_times_cosine_by_density() {
     }
 }
 
-/// Mean weight, and its standard error; radiance across an interface by what energy it is.
+/// Mean weight of the colour that has most, and its standard error; radiance across an interface by what energy it is.
 pub(super) fn energy(bsdf: &Bsdf, wo: Vector3, count: u32, random: &mut Random) -> (f64, f64) {
-    let (mut sum, mut squares) = (0.0, 0.0);
+    let (mut sums, mut squares) = ([0.0; 3], [0.0; 3]);
     for _ in 0..count {
-        let scattered = bsdf.scatter(wo, number(random), unit(random));
-        let weight = scattered.map_or(0.0, |s| f64::from(s.weight.max() / s.compression));
-        sum += weight;
-        squares += weight * weight;
+        let Some(s) = bsdf.scatter(wo, number(random), unit(random)) else { continue };
+        let weights = Basis::Rgb.to_rgb(s.weight / s.compression).map(f64::from);
+        for lane in 0..3 {
+            sums[lane] += weights[lane];
+            squares[lane] += weights[lane] * weights[lane];
+        }
     }
     let n = f64::from(count);
-    let mean = sum / n;
-    (mean, ((squares / n - mean * mean).max(0.0) / n).sqrt())
+    let lane = (0..3).max_by(|a, b| sums[*a].total_cmp(&sums[*b])).unwrap_or(0);
+    let mean = sums[lane] / n;
+    (mean, ((squares[lane] / n - mean * mean).max(0.0) / n).sqrt())
 }
 
 #[test]
