@@ -231,6 +231,15 @@ impl Layered {
 
     /// A direction at a point of the unit square, of the kind that `choice` chooses. `None` if it leads into the surface.
     pub(super) fn draw(&self, wo: Vector3, choice: f32, u: Point2) -> Option<Drawn> {
+        let wi = self.direction(wo, choice, u)?;
+        let pdf = self.pdf(wo, wi);
+        let weight = self.eval(wo, wi) * (wi.z.abs() / pdf);
+        let branch = Branch { kind: BranchKind::Reflection, wi, weight };
+        (pdf > 0.0).then_some(Drawn { branch, pdf })
+    }
+
+    /// The direction of [`Layered::draw`].
+    pub(super) fn direction(&self, wo: Vector3, choice: f32, u: Point2) -> Option<Vector3> {
         if wo.z == 0.0 || self.is_sharp() {
             return None;
         }
@@ -248,14 +257,7 @@ impl Layered {
             }
             None => cosine_hemisphere(u),
         };
-        if i.z <= 0.0 {
-            return None;
-        }
-        let wi = if wo.z < 0.0 { -i } else { i };
-        let pdf = self.pdf(wo, wi);
-        let weight = self.eval(wo, wi) * (i.z / pdf);
-        let branch = Branch { kind: BranchKind::Reflection, wi, weight };
-        (pdf > 0.0).then_some(Drawn { branch, pdf })
+        (i.z > 0.0).then(|| if wo.z < 0.0 { -i } else { i })
     }
 
     /// Density of [`Layered::draw`] at `wi`, 1/sr.

@@ -87,7 +87,7 @@ impl Bsdf {
         let (lobe, chance, choice) = self.choose(wo, choice)?;
         let number = lobe;
         let lobe = self.lobes[number].as_ref()?;
-        let own = lobe.scatter(wo, choice, u)?;
+        let own = lobe.scatter(wo, choice, u, chance == 1.0)?;
         let compression = lobe.compression(wo, own.kind);
         let common = Scattered {
             kind: own.kind,
@@ -193,8 +193,8 @@ impl Lobe {
         }
     }
 
-    /// A direction of this lobe.
-    fn scatter(&self, wo: Vector3, choice: f32, u: Point2) -> Option<OfLobe> {
+    /// A direction of this lobe; if it is not `alone`, a spread one's weight and density do not matter.
+    fn scatter(&self, wo: Vector3, choice: f32, u: Point2, alone: bool) -> Option<OfLobe> {
         let sharp = || {
             let mut branches = Branches::default();
             self.add_sharp_branches(wo, &mut branches);
@@ -211,7 +211,15 @@ impl Lobe {
                 (!weight.is_black()).then_some(OfLobe { weight, ..own })
             }
             Self::Phong(phong) => phong.draw(wo, u).as_ref().map(OfLobe::drawn),
-            Self::Layered(layered) => layered.draw(wo, choice, u).as_ref().map(OfLobe::drawn),
+            Self::Layered(layered) if alone => layered.draw(wo, choice, u).as_ref().map(OfLobe::drawn),
+            // PERF: a walk saved (bench render).
+            Self::Layered(layered) => layered.direction(wo, choice, u).map(|wi| OfLobe {
+                kind: BranchKind::Reflection,
+                wi,
+                weight: Spectrum::ONE,
+                pdf: Some(1.0),
+                chance: 1.0,
+            }),
             Self::Highlight(highlight) => {
                 let wi = highlight.draw(wo, u)?;
                 let pdf = highlight.pdf(wo, wi);

@@ -41,7 +41,8 @@ impl Detail {
     /// Reads both parameters.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         let heights = args.is_set("displacement").then(|| args.float_input("displacement"));
-        let image = if args.is_set("normalmap") { args.image("normalmap") } else { None };
+        // pbrt's own exporters write an empty name for none.
+        let image = if args.text("normalmap").is_empty() { None } else { args.image("normalmap") };
         let normals = image.filter(|i| i.width > 0 && i.height > 0).map(|image| Texels::new(image, false));
         if heights.is_some() && normals.is_some() {
             args.warning("displacement", "\"displacement\" has no effect beside \"normalmap\"");
