@@ -32,6 +32,9 @@ impl Integrator for Wrong {
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         self.inner.eye_samples(asked)
     }
+    fn bounded(&self) -> Option<GlossRays> {
+        self.inner.bounded()
+    }
     fn depth_limit(&self) -> Option<u32> {
         self.inner.depth_limit()
     }

@@ -60,11 +60,10 @@ impl Prepared {
     /// # Errors
     /// Why there is no bound, as a clause.
     pub fn brightest(&self) -> Result<f32, &str> {
-        let gloss = match self.rules.contains_key("gloss_rays") {
-            true => GlossRays::Drawn,
-            false => GlossRays::Main,
-        };
-        self.scene.brightest(gloss)
+        match self.integrator.bounded() {
+            Some(gloss) => self.scene.brightest(gloss),
+            None => Err("paths also follow the light between matte surfaces"),
+        }
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {

@@ -46,6 +46,44 @@ fn plain_materials_keep_their_factors() {
 }
 
 #[test]
+fn extensions_of_the_material_become_its_layers() {
+    let d = json!({"nodes": [{}], "materials": [{"extensions": {
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [2, 1, 0.5]},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25},
+        "KHR_materials_sheen": {"sheenColorFactor": [0.25, 0.5, 1], "sheenRoughnessFactor": 0.5},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.75, "iridescenceThicknessMaximum": 500},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
+            "diffuseTransmissionColorFactor": [1, 0.5, 0]},
+        "KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": {"thicknessFactor": 0.125, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2}
+    }}]});
+    let desc = import_well(d, &[]).desc;
+    let m = &desc.materials[0].node;
+    for (name, value) in [
+        ("specular", vec![0.5]),
+        ("specularcolor", vec![2.0, 1.0, 0.5]),
+        ("clearcoat", vec![0.75]),
+        ("clearcoatroughness", vec![0.25]),
+        ("sheencolor", vec![0.25, 0.5, 1.0]),
+        ("sheenroughness", vec![0.5]),
+        ("anisotropy", vec![0.5]),
+        ("anisotropyrotation", vec![1.5]),
+        ("iridescence", vec![1.0]),
+        ("iridescenceeta", vec![1.75]),
+        ("iridescencethickness", vec![500.0]),
+        ("diffusetransmission", vec![0.5]),
+        ("diffusetransmissioncolor", vec![1.0, 0.5, 0.0]),
+        ("thickness", vec![0.125]),
+        ("attenuationcolor", vec![0.5, 1.0, 1.0]),
+        ("attenuationdistance", vec![2.0]),
+    ] {
+        assert_eq!(numbers(m, name), value, "{name}");
+    }
+    assert!(m.params.get("onesided").is_none());
+}
+
+#[test]
 fn textures_carry_channel_encoding_factor_wrap_and_filter() {
     let d = with_images(json!({"materials": [
         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "baseColorFactor": [0.5, 1, 1, 1],

@@ -4,18 +4,19 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::bsdf::{
-    Blur, Blurred, BranchKind, Bsdf, Drawn, Gloss, Glossy, Interface, Lobe, Seen, Split,
+    Blur, Blurred, BranchKind, Bsdf, Drawn, Facets, Gloss, Glossy, Interface, Lobe, Reflectance, Seen, Split,
 };
 use durer_testkit::{
     DVec3, chi_square::Histogram, gloss_table::GlossTable, microfacet::Ggx, quadrature, random::Random,
 };
 
 fn glossy(f0: f32, alpha: f32) -> Lobe {
-    Lobe::Glossy(Glossy { f0: Spectrum::splat(f0), f90: Spectrum::ONE, alpha, scale: 1.0 })
+    let reflectance = Reflectance::Schlick { f0: Spectrum::splat(f0), f90: Spectrum::ONE };
+    Lobe::Glossy(Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 })
 }
 
 fn frosted(eta: f32, alpha: f32) -> Lobe {
-    Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet { alpha } })
+    Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(Facets::round(alpha)) })
 }
 
 fn translucent(reflection: f32, transmission: f32) -> Lobe {

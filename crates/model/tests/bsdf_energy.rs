@@ -1,10 +1,11 @@
 //! T3 for lobes: reciprocity, white furnaces, the split-sum table.
 use durer_core::{math::Vector3, spectrum::Spectrum};
-use durer_model::bsdf::{BranchKind, Bsdf, Glossy, Highlight, Lobe};
+use durer_model::bsdf::{BranchKind, Bsdf, Facets, Glossy, Highlight, Lobe, Reflectance};
 use durer_testkit::{DVec3, microfacet::Ggx, quadrature::cosine_hemisphere, random::Random};
 
 fn glossy(f0: f32, alpha: f32) -> Glossy {
-    Glossy { f0: Spectrum::splat(f0), f90: Spectrum::ONE, alpha, scale: 1.0 }
+    let reflectance = Reflectance::Schlick { f0: Spectrum::splat(f0), f90: Spectrum::ONE };
+    Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 }
 }
 
 /// Every lobe that reflects lights and obeys physics. `Highlight` is left out: the classic formula is neither reciprocal

@@ -3,7 +3,9 @@ use durer_core::{
     math::{Point2, Vector3},
     spectrum::Spectrum,
 };
-use durer_model::bsdf::{Blur, Blurred, BranchKind, Bsdf, Glossy, Interface, Lobe, fresnel_dielectric};
+use durer_model::bsdf::{
+    Blur, Blurred, BranchKind, Bsdf, Facets, Glossy, Interface, Lobe, Reflectance, fresnel_dielectric,
+};
 
 fn direction(degrees: f32) -> Vector3 {
     let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
@@ -15,11 +17,12 @@ fn grid() -> impl Iterator<Item = Point2> {
 }
 
 fn glossy(alpha: f32) -> Lobe {
-    Lobe::Glossy(Glossy { f0: Spectrum::ONE * 0.5, f90: Spectrum::ONE, alpha, scale: 1.0 })
+    let reflectance = Reflectance::Schlick { f0: Spectrum::ONE * 0.5, f90: Spectrum::ONE };
+    Lobe::Glossy(Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 })
 }
 
 fn frosted(eta: f32) -> Lobe {
-    Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet { alpha: 0.9 } })
+    Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(Facets::round(0.9)) })
 }
 
 #[test]

@@ -8,7 +8,7 @@ use durer_model::{
     bsdf::{Branch, BranchKind, Bsdf, Lobe},
     material::{MATERIALS, Material, NOT_YET},
 };
-use durer_scene::{Args, Data, Diagnostics, Node, Params, Severity, ValueType, find};
+use durer_scene::{Args, Data, Diagnostics, Entry, Node, ParamDefault, Params, ValueType, find};
 use durer_testkit::{DVec3, quadrature::cosine_hemisphere, random::Random};
 
 const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[], log: None };
@@ -84,9 +84,14 @@ fn corners(kind: &str) -> Vec<Params> {
     sets
 }
 
+/// The kinds that need no other material (`tests/laws` mixes them).
+fn alone() -> impl Iterator<Item = &'static Entry<Box<dyn Material>>> {
+    MATERIALS.iter().filter(|e| e.schema.params.iter().all(|p| p.default != ParamDefault::Required))
+}
+
 #[test]
 fn no_material_returns_more_than_arrives() {
-    for entry in MATERIALS {
+    for entry in alone() {
         for params in corners(entry.schema.name) {
             let material = material(entry.schema.name, params.clone());
             for cos in [1.0, 0.7, 0.2, 0.01, -0.01, -0.5, -1.0] {
@@ -101,7 +106,7 @@ fn no_material_returns_more_than_arrives() {
                     f64::from(bsdf.eval(wo, wi).max())
                 });
                 // Narrow lobes need other points, see bsdf_energy; 48² points are coarse for them.
-                let narrow = bsdf.lobes().any(|l| matches!(l, Lobe::Glossy(g) if g.alpha < 0.2));
+                let narrow = bsdf.lobes().any(|l| matches!(l, Lobe::Glossy(g) if g.facets.alpha() < 0.2));
                 assert!(narrow || lit <= 1.0 + 0.02, "{} {params:?} cos {cos}: {lit}", entry.schema.name);
             }
         }
@@ -131,7 +136,7 @@ fn lossless_materials_vanish_in_a_uniform_sky() {
 fn opaque_materials_look_the_same_from_both_sides() {
     let mut random = Random::new(2);
     let direction = |r: &mut Random| Vector3::from_f64(r.direction());
-    for entry in MATERIALS.iter().filter(|e| e.schema.name != "dielectric") {
+    for entry in alone().filter(|e| e.schema.name != "dielectric") {
         let material = material(entry.schema.name, Params::new());
         for _ in 0..200 {
             let (wo, wi) = (direction(&mut random), direction(&mut random));
@@ -158,11 +163,11 @@ fn classic_coefficients_become_lobes() {
     let [r, t] = branches(&glass, wo)[..] else { panic!("two branches") };
     assert_eq!((r.weight, t.weight), (Spectrum::splat(0.4), Spectrum::splat(0.5)));
     assert!((t.wi.x + 0.8 / 1.5).abs() < 1e-6 && t.wi.z < 0.0);
-    assert_eq!(glass.lobes().count(), Bsdf::MOST_LOBES);
+    assert_eq!(glass.lobes().count(), 4);
 }
 
 #[test]
-fn rough_glass_spreads_and_warns_of_directions_only() {
+fn rough_glass_spreads() {
     let spreads = |params| {
         let (glass, said) = built("glass", params);
         let said: Vec<_> = said.iter().map(|d| (d.severity, d.message.clone())).collect();
@@ -171,8 +176,7 @@ fn rough_glass_spreads_and_warns_of_directions_only() {
     assert_eq!(spreads(Params::new()), (false, vec![]));
     assert_eq!(spreads(Params::new().float("roughness", 0.3)), (true, vec![]));
     let (does, said) = spreads(Params::new().float("uroughness", 0.3).float("vroughness", 0.1));
-    let mean = "roughness that differs along u and v is not supported yet; its mean is used";
-    assert_eq!((does, said), (true, vec![(Severity::Warning, mean.to_owned())]));
+    assert_eq!((does, said), (true, vec![]));
     let (_, said) = built("dielectric", Params::new().float("eta", 0.0));
     assert!(said.has_errors());
 }

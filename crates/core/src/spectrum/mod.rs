@@ -4,6 +4,7 @@
 mod basis;
 mod color;
 mod lanes;
+mod metal;
 mod named;
 mod observer;
 mod sampled;
@@ -11,5 +12,6 @@ mod sampled;
 pub use basis::Basis;
 pub use color::{Color, luminance};
 pub use lanes::Spectrum;
+pub use metal::{conductor, conductor_of, curve};
 pub use named::{Named, named, spectrum_names};
 pub use sampled::{HELIUM_D, Sampled, blackbody};

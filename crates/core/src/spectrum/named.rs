@@ -71,6 +71,12 @@ pub fn named(name: &str) -> Option<Named> {
     Some(Named { color: chromatic(*x, *y), number: 1.0 })
 }
 
+/// The few points of a curve of indices that are known by name: wavelengths (nm) and values in turn, rising.
+pub(super) fn waves(name: &str) -> Option<[f32; 8]> {
+    let (_, [r, g, b, yellow]) = INDICES.iter().find(|n| n.0 == name)?;
+    Some([464.2, *b, 549.1, *g, 587.6, *yellow, 611.4, *r])
+}
+
 /// All names.
 pub fn spectrum_names() -> impl Iterator<Item = &'static str> {
     INDICES.iter().map(|n| n.0).chain(ILLUMINANTS.iter().map(|n| n.0))

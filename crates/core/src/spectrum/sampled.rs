@@ -67,16 +67,7 @@ impl Sampled {
 
     /// The colour of a share of light, under D65.
     pub fn share(&self) -> Color {
-        let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
-        for nm in (RANGE.0..=RANGE.1).map(f64::from) {
-            let weights = rec709(xyz(nm)).map(|c| c * d65(nm));
-            let value = self.inside(nm).unwrap_or(0.0);
-            for i in 0..3 {
-                sum[i] += weights[i] * value;
-                white[i] += weights[i];
-            }
-        }
-        Color { rgb: std::array::from_fn(|i| (sum[i] / white[i]).max(0.0) as f32) }
+        share_of(|nm| self.inside(nm).unwrap_or(0.0))
     }
 
     /// The colour of a light, at luminance 1; black if it gives no visible light.
@@ -96,6 +87,20 @@ pub fn blackbody(kelvin: f32) -> Color {
         (-5.0 * libm::log(nm / 550.0) - x + C2 / (550.0 * t)) - libm::log1p(-libm::exp(-x))
     };
     if kelvin > 0.0 { light(|nm| libm::exp(planck(nm))) } else { Color::BLACK }
+}
+
+/// The colour of a share of light, given by wavelength in nm, under D65.
+pub(super) fn share_of(value: impl Fn(f64) -> f64) -> Color {
+    let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
+    for nm in (RANGE.0..=RANGE.1).map(f64::from) {
+        let weights = rec709(xyz(nm)).map(|c| c * d65(nm));
+        let value = value(nm);
+        for i in 0..3 {
+            sum[i] += weights[i] * value;
+            white[i] += weights[i];
+        }
+    }
+    Color { rgb: std::array::from_fn(|i| (sum[i] / white[i]).max(0.0) as f32) }
 }
 
 /// The colour of CIE chromaticity `(x, y)`, at luminance 1.

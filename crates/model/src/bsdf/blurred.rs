@@ -11,7 +11,7 @@ use durer_core::{
 };
 
 use super::{
-    Branch, BranchKind, Branches, Drawn, Draws, Interface, ggx, gloss, lobe::mirrored, refract,
+    Branch, BranchKind, Branches, Drawn, Draws, Facets, Interface, gloss, lobe::mirrored, refract,
     scatter::OfLobe,
 };
 
@@ -28,11 +28,8 @@ pub enum Blur {
         /// `n` about the refracted direction.
         transmission: f32,
     },
-    /// By GGX microfacets of this roughness, in `(0, 1]`.
-    Microfacet {
-        /// Roughness.
-        alpha: f32,
-    },
+    /// By GGX microfacets.
+    Microfacet(Facets),
 }
 
 /// An interface seen through a blur.
@@ -57,12 +54,12 @@ impl Blurred {
                     self.interface.shares(wo.z.abs(), self.interface.eta_seen(wo));
                 if reflects { reflection } else { transmission }
             }
-            Blur::Microfacet { .. } if self.is_matched() => Spectrum::BLACK,
-            Blur::Microfacet { alpha } => {
+            Blur::Microfacet(_) if self.is_matched() => Spectrum::BLACK,
+            Blur::Microfacet(facets) => {
                 let (o, i, eta) = self.upright(wo, wi);
                 let Some(h) = half_vector(o, i, eta) else { return Spectrum::BLACK };
                 let (reflection, transmission) = self.interface.shares(o.dot(h).abs(), eta);
-                (if reflects { reflection } else { transmission }) * seen_by_both(o, i, alpha)
+                (if reflects { reflection } else { transmission }) * facets.seen_by_both(o, i)
             }
         };
         weight * (self.pdf(wo, wi) / wi.z.abs())
@@ -77,11 +74,11 @@ impl Blurred {
                 Some(axis) => spread_pdf(axis, transmission, wi),
                 None => 0.0,
             },
-            Blur::Microfacet { .. } if self.is_matched() => 0.0,
-            Blur::Microfacet { alpha } => {
+            Blur::Microfacet(_) if self.is_matched() => 0.0,
+            Blur::Microfacet(facets) => {
                 let (o, i, eta) = self.upright(wo, wi);
                 let Some(h) = half_vector(o, i, eta) else { return 0.0 };
-                let density = ggx::visible_density(o, h, alpha);
+                let density = facets.visible_density(o, h);
                 if reflects {
                     return density / (4.0 * o.dot(h));
                 }
@@ -109,32 +106,37 @@ impl Blurred {
                     _ => {}
                 }
             }
-            Blur::Microfacet { .. } if self.is_matched() => {}
-            Blur::Microfacet { alpha } => self.draw_microfacet(wo, alpha, u, draws),
+            Blur::Microfacet(_) if self.is_matched() => {}
+            Blur::Microfacet(facets) => self.draw_microfacet(wo, &facets, u, draws),
         }
     }
 
-    fn draw_microfacet(&self, wo: Vector3, alpha: f32, u: Point2, draws: &mut Draws) {
+    fn draw_microfacet(&self, wo: Vector3, facets: &Facets, u: Point2, draws: &mut Draws) {
         let (o, _, eta) = self.upright(wo, wo);
         if o.z == 0.0 {
             return;
         }
         let side = Vector3::new(1.0, 1.0, wo.z.signum());
-        let [up, down] = self.split_at((o, eta), alpha, u);
+        let [up, down] = self.split_at((o, eta), facets, u);
         if let Some((up, reflection)) = up.filter(|(up, _)| up.z > 0.0) {
-            let weight = reflection * seen_by_both(o, up, alpha);
+            let weight = reflection * facets.seen_by_both(o, up);
             self.add(wo, Branch { kind: BranchKind::Reflection, wi: scaled(up, side), weight }, draws);
         }
         if let Some((down, transmission)) = down.filter(|(down, _)| down.z < 0.0) {
-            let weight = transmission * seen_by_both(o, down, alpha);
+            let weight = transmission * facets.seen_by_both(o, down);
             self.add(wo, Branch { kind: BranchKind::Transmission, wi: scaled(down, side), weight }, draws);
         }
     }
 
     /// The directions that the visible microfacet normal of a point of the unit square mirrors and refracts `o` to, and
     /// their shares by Fresnel's equations.
-    fn split_at(&self, (o, eta): (Vector3, f32), alpha: f32, u: Point2) -> [Option<(Vector3, Spectrum)>; 2] {
-        let h = ggx::visible_normal(o, alpha, u);
+    fn split_at(
+        &self,
+        (o, eta): (Vector3, f32),
+        facets: &Facets,
+        u: Point2,
+    ) -> [Option<(Vector3, Spectrum)>; 2] {
+        let h = facets.visible_normal(o, u);
         let (reflection, transmission) = self.interface.shares(o.dot(h).clamp(0.0, 1.0), eta);
         let up = h * (2.0 * o.dot(h)) - o;
         let down = refract(o, Normal3::from(h), 1.0 / eta);
@@ -143,13 +145,13 @@ impl Blurred {
 
     /// What [`Blurred::draw`] loses to the wrong side of the surface, not dimmed by other microfacets.
     pub(super) fn lost(&self, wo: Vector3, u: Point2) -> [Option<Branch>; 2] {
-        let Blur::Microfacet { alpha } = self.blur else { return [None; 2] };
+        let Blur::Microfacet(facets) = self.blur else { return [None; 2] };
         let (o, _, eta) = self.upright(wo, wo);
         if o.z == 0.0 || self.is_matched() {
             return [None; 2];
         }
         let side = Vector3::new(1.0, 1.0, wo.z.signum());
-        let [up, down] = self.split_at((o, eta), alpha, u);
+        let [up, down] = self.split_at((o, eta), &facets, u);
         let branch = |kind| move |(wi, weight)| Branch { kind, wi: scaled(wi, side), weight };
         let lost = [
             up.filter(|(up, _)| up.z <= 0.0).map(branch(BranchKind::Reflection)),
@@ -165,8 +167,8 @@ impl Blurred {
         self.add_sharp_branches(wo, &mut sharp);
         let cos = match self.blur {
             _ if o.z == 0.0 => return None,
-            Blur::Microfacet { .. } if self.is_matched() => return OfLobe::sharp(&sharp, choice),
-            Blur::Microfacet { alpha } => o.dot(ggx::visible_normal(o, alpha, u)),
+            Blur::Microfacet(_) if self.is_matched() => return OfLobe::sharp(&sharp, choice),
+            Blur::Microfacet(facets) => o.dot(facets.visible_normal(o, u)),
             Blur::Cosine { .. } => o.z,
         };
         let reflected = self.reflected_share(cos, eta);
@@ -191,7 +193,7 @@ impl Blurred {
         let (o, i, eta) = self.upright(wo, wi);
         let cos = match self.blur {
             Blur::Cosine { .. } => o.z,
-            Blur::Microfacet { .. } => half_vector(o, i, eta).map_or(0.0, |h| o.dot(h)),
+            Blur::Microfacet(_) => half_vector(o, i, eta).map_or(0.0, |h| o.dot(h)),
         };
         let reflected = self.reflected_share(cos, eta);
         pdf * if i.z > 0.0 { reflected } else { 1.0 - reflected }
@@ -212,7 +214,7 @@ impl Blurred {
 
     /// The directions that are not spread at all.
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
-        if matches!(self.blur, Blur::Microfacet { .. }) && self.is_matched() {
+        if matches!(self.blur, Blur::Microfacet(_)) && self.is_matched() {
             self.interface.add_branches(wo, branches);
         } else if let Blur::Cosine { reflection, transmission } = self.blur {
             let mut all = Branches::default();
@@ -265,10 +267,4 @@ fn half_vector(o: Vector3, i: Vector3, eta: f32) -> Option<Vector3> {
     let h = h.normalize();
     let h = if h.z < 0.0 { -h } else { h };
     (o.dot(h) > 0.0 && i.dot(h) * i.z > 0.0).then_some(h)
-}
-
-/// `G2 / G1(o)`: the share of the microfacets seen from `o` that is also seen from `i`.
-fn seen_by_both(o: Vector3, i: Vector3, alpha: f32) -> f32 {
-    let (co, ci) = (o.z, i.z.abs());
-    4.0 * co * ci * ggx::visibility(co, ci, alpha) / ggx::masking(co, alpha)
 }

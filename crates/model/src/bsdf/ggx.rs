@@ -31,11 +31,6 @@ pub(super) fn masking(cos: f32, alpha: f32) -> f32 {
     2.0 * cos / (cos + (sqr(cos) * (1.0 - a2) + a2).sqrt())
 }
 
-/// Density of the normals that [`visible_normal`] draws, 1/sr: `D G1(wo) (wo . h) / cos_o`.
-pub(super) fn visible_density(wo: Vector3, h: Vector3, alpha: f32) -> f32 {
-    masking(wo.z, alpha) * wo.dot(h).max(0.0) * distribution(h, alpha) / wo.z
-}
-
 /// The microfacet normal seen from `wo` (`wo.z > 0`) at a point of the unit square: stretched so that the surface is a
 /// hemisphere, the normals seen are halfway between `wo` and a uniform cap of directions (Dupuy and Benyoub 2023,
 /// "Sampling Visible GGX Normals with Spherical Caps").

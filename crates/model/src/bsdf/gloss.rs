@@ -46,11 +46,16 @@ impl Gloss {
 
 /// A direction about the unit vector `axis`, on its side of the surface.
 pub(super) fn draw(axis: Vector3, exponent: f32, u: Point2) -> Vector3 {
+    let w = about(axis, exponent, u);
+    if w.z * axis.z < 0.0 { Vector3::new(w.x, w.y, -w.z) } else { w }
+}
+
+/// A direction about the unit vector `axis`, on any side of the surface.
+pub(super) fn about(axis: Vector3, exponent: f32, u: Point2) -> Vector3 {
     let c = pow(1.0 - u.x, 1.0 / (exponent + 1.0));
     let s = (1.0 - c * c).max(0.0).sqrt();
     let phi = TAU * u.y;
-    let w = Frame::from_z(Normal3::from(axis)).to_world(Vector3::new(s * cos(phi), s * sin(phi), c));
-    if w.z * axis.z < 0.0 { Vector3::new(w.x, w.y, -w.z) } else { w }
+    Frame::from_z(Normal3::from(axis)).to_world(Vector3::new(s * cos(phi), s * sin(phi), c))
 }
 
 /// Density of [`draw`] at `w`, 1/sr.

@@ -1,8 +1,9 @@
-//! Rough reflection: isotropic GGX with Schlick's Fresnel term, `f = F D V` (glTF 2.0, appendix B).
+//! Rough reflection: GGX microfacets, `f = F D V` (glTF 2.0, appendix B), with Schlick's or the exact Fresnel term.
 //!
 //! Single scattering: light that would bounce twice between microfacets is lost, up to two thirds of it at alpha = 1
 //! (validation.md E3). The directional albedo is the split sum `E = f0 A(cos, alpha) + B(cos, alpha)` (Karis 2013,
-//! "Real Shading in Unreal Engine 4"), read from a table of our own, made by quadrature: see `albedo.rs`.
+//! "Real Shading in Unreal Engine 4"), read from a table of our own, made by quadrature: see `albedo.rs`. For the exact
+//! term, and for widths that differ, it is an approximation; only views without sampling and choices of lobes use it then.
 //!
 //! **Gloss without sampling.** An integrator that spawns one ray per lobe (Whitted's) cannot blur a reflection. It sees
 //! the lobe twice, and both parts together weigh `E`: as a mirror branch, whose share fades from 1 at alpha <= 0.02 to 0
@@ -17,7 +18,13 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Branch, BranchKind, Drawn, GlossyView, ggx, lobe::mirrored, schlick_rise};
+use super::{Branch, BranchKind, Drawn, Facets, GlossyView, Reflectance, lobe::mirrored};
+
+/// Share of a uniform sky that white facets of width `alpha` send towards a cosine after one bounce, by the table.
+pub(super) fn single_scattered(cos: f32, alpha: f32) -> f32 {
+    let (a, b) = albedo::split_sum(cos, alpha);
+    a + b
+}
 
 /// Below this `alpha` the lobe is a mirror.
 pub const SMOOTH: f32 = 1e-3;
@@ -29,12 +36,10 @@ const MIN_COSINE: f32 = 1e-6;
 /// A rough reflecting surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glossy {
-    /// Reflectance at normal incidence, in `[0, 1]`.
-    pub f0: Spectrum,
-    /// Reflectance at grazing incidence, in `[0, 1]`: 1 in nature; that of `f0` where it shall not depend on the angle.
-    pub f90: Spectrum,
-    /// GGX roughness in `[0, 1]`.
-    pub alpha: f32,
+    /// Fresnel's term.
+    pub reflectance: Reflectance,
+    /// Roughness.
+    pub facets: Facets,
     /// Factor on the whole lobe: coverage, in `[0, 1]`.
     pub scale: f32,
 }
@@ -47,31 +52,28 @@ impl Glossy {
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         let h = wo + wi;
         let length = h.length();
-        if self.alpha < SMOOTH || wo.z * wi.z <= 0.0 || length == 0.0 {
+        if self.facets.is_smooth() || wo.z * wi.z <= 0.0 || length == 0.0 {
             return Spectrum::BLACK;
         }
         let h = h / length;
         let (cos_o, cos_i) = (wo.z.abs().max(MIN_COSINE), wi.z.abs().max(MIN_COSINE));
-        let dv = ggx::distribution(h, self.alpha) * ggx::visibility(cos_o, cos_i, self.alpha);
+        let dv = self.facets.distribution(h) * self.facets.visibility((wo, cos_o), (wi, cos_i));
         // Half the length is the cosine between either direction and h; exactly the same from both.
-        self.fresnel(0.5 * length) * (dv * self.scale)
+        self.reflectance.at(0.5 * length) * (dv * self.scale)
     }
     /// Share of the light from a uniform sky that leaves towards `wo`, without the factor `scale`.
     pub fn directional_albedo(&self, wo: Vector3) -> Spectrum {
         let cos = wo.z.abs().min(1.0);
-        if self.alpha < SMOOTH {
-            return self.fresnel(cos);
+        if self.facets.is_smooth() {
+            return self.reflectance.at(cos);
         }
-        let (a, b) = albedo::split_sum(cos, self.alpha);
-        self.f0 * a + self.f90 * b
-    }
-    fn fresnel(&self, cos: f32) -> Spectrum {
-        let rise = schlick_rise(cos);
-        self.f0.zip(self.f90, |f0, f90| f0 + (f90 - f0) * rise)
+        let (a, b) = albedo::split_sum(cos, self.facets.alpha());
+        let (f0, f90) = self.reflectance.ends();
+        f0 * a + f90 * b
     }
     /// Whether directions drawn from it differ: below `alpha` = 1e-3 it is a mirror.
     pub(super) fn spreads(&self) -> bool {
-        self.alpha >= SMOOTH
+        !self.facets.is_smooth()
     }
     /// Density of [`Glossy::draw`] at `wi`, 1/sr.
     pub fn pdf(&self, wo: Vector3, wi: Vector3) -> f32 {
@@ -80,7 +82,7 @@ impl Glossy {
             return 0.0;
         }
         let (o, h) = if wo.z < 0.0 { (-wo, -h.normalize()) } else { (wo, h.normalize()) };
-        ggx::masking(o.z, self.alpha) * ggx::distribution(h, self.alpha) / (4.0 * o.z)
+        self.facets.masking(o) * self.facets.distribution(h) / (4.0 * o.z)
     }
     /// The direction at a point of the unit square: a visible microfacet normal mirrors `wo`. `None` if it goes into the
     /// surface, where single scattering loses it.
@@ -94,19 +96,18 @@ impl Glossy {
             return None;
         }
         // f cos / density = F G2 / G1.
-        let shadowing =
-            4.0 * o.z * wi.z * ggx::visibility(o.z, wi.z, self.alpha) / ggx::masking(o.z, self.alpha);
+        let shadowing = self.facets.seen_by_both(o, wi);
         let branch = Branch {
             kind: BranchKind::Reflection,
             wi: wi * up,
-            weight: self.fresnel(cos) * (shadowing * self.scale),
+            weight: self.reflectance.at(cos) * (shadowing * self.scale),
         };
         (!branch.weight.is_black()).then(|| Drawn { branch, pdf: self.pdf(wo, branch.wi) })
     }
     /// `o`, its direction mirrored at the visible microfacet normal of a point of the unit square, and the cosine between
     /// either and the normal.
     fn mirrored_at(&self, o: Vector3, u: Point2) -> (Vector3, Vector3, f32) {
-        let h = ggx::visible_normal(o, self.alpha, u);
+        let h = self.facets.visible_normal(o, u);
         let cos = o.dot(h).min(1.0);
         (o, h * (2.0 * cos) - o, cos)
     }
@@ -117,12 +118,12 @@ impl Glossy {
         }
         let up = wo.z.signum();
         let (_, wi, cos) = self.mirrored_at(wo * up, u);
-        let weight = self.fresnel(cos) * self.scale;
+        let weight = self.reflectance.at(cos) * self.scale;
         (wi.z <= 0.0).then(|| Branch { kind: BranchKind::Reflection, wi: wi * up, weight })
     }
     /// Share of the lobe that the mirror branch carries.
     pub(super) fn mirror_share(&self) -> f32 {
-        let t = ((Self::BLURRED - self.alpha) / (Self::BLURRED - SHARP)).clamp(0.0, 1.0);
+        let t = ((Self::BLURRED - self.facets.alpha()) / (Self::BLURRED - SHARP)).clamp(0.0, 1.0);
         sqr(t) * (3.0 - 2.0 * t)
     }
     pub(super) fn branch_weight(&self, wo: Vector3) -> Spectrum {
@@ -132,6 +133,6 @@ impl Glossy {
     pub(super) fn view(&self, wo: Vector3) -> Option<GlossyView> {
         let share = (1.0 - self.mirror_share()) * self.scale;
         let weight = if share > 0.0 { self.directional_albedo(wo) * share } else { Spectrum::BLACK };
-        (!weight.is_black()).then(|| GlossyView { wi: mirrored(wo), weight, alpha: self.alpha })
+        (!weight.is_black()).then(|| GlossyView { wi: mirrored(wo), weight, alpha: self.facets.alpha() })
     }
 }

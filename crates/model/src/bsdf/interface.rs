@@ -42,6 +42,18 @@ impl Interface {
     pub const fn clear(eta: f32) -> Self {
         Self { eta, split: Split::Fresnel { reflection: Spectrum::ONE, transmission: Spectrum::ONE } }
     }
+    /// The same, dimmed on both ways.
+    pub(super) fn scaled(self, by: f32) -> Self {
+        let split = match self.split {
+            Split::Fresnel { reflection, transmission } => {
+                Split::Fresnel { reflection: reflection * by, transmission: transmission * by }
+            }
+            Split::Constant { reflection, transmission } => {
+                Split::Constant { reflection: reflection * by, transmission: transmission * by }
+            }
+        };
+        Self { split, ..self }
+    }
     /// The index on the far side of `wo`, divided by that on its own.
     pub(super) fn eta_seen(&self, wo: Vector3) -> f32 {
         if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }

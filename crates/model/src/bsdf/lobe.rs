@@ -6,7 +6,9 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Blurred, BranchKind, Branches, Draws, Gloss, Glossy, Highlight, Interface};
+use super::{
+    Blurred, BranchKind, Branches, Draws, Gloss, Glossy, Highlight, Interface, Layered, Matte, Phong,
+};
 
 /// One way in which a surface scatters light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +38,26 @@ pub enum Lobe {
     Gloss(Gloss),
     /// Blurred boundary of a transparent body.
     Blurred(Blurred),
+    /// Broad reflection that is not Lambert's.
+    Matte(Matte),
+    /// Light from the other side spread evenly: `f = albedo / pi`.
+    Behind {
+        /// Share of light transmitted, in `[0, 1]`.
+        albedo: Spectrum,
+    },
+    /// A normalised highlight.
+    Phong(Phong),
+    /// What light does between a coat and a metal below it.
+    Layered(Layered),
     /// Light goes straight on: partial coverage, or transmission through something thin.
     PassThrough {
         /// Share of light that passes.
         weight: Spectrum,
     },
 }
+
+/// Parts of the unit interval by which draws choose among the kinds of a [`Layered`] lobe: 0.7, 0.2 and 0.1 of them.
+const CHOICES: f32 = 10.0;
 
 /// The mirror direction of `wo` about the z axis.
 pub(super) fn mirrored(wo: Vector3) -> Vector3 {
@@ -57,7 +73,12 @@ impl Lobe {
             Self::Glossy(glossy) => glossy.eval(wo, wi),
             Self::Gloss(gloss) => gloss.eval(wo, wi),
             Self::Blurred(blurred) => blurred.eval(wo, wi),
+            Self::Matte(matte) => matte.eval(wo, wi),
+            Self::Behind { albedo } if wo.z * wi.z < 0.0 => *albedo * FRAC_1_PI,
+            Self::Phong(phong) => phong.eval(wo, wi),
+            Self::Layered(layered) => layered.eval(wo, wi),
             Self::Diffuse { .. }
+            | Self::Behind { .. }
             | Self::Ambient { .. }
             | Self::Mirror { .. }
             | Self::Interface(_)
@@ -66,9 +87,14 @@ impl Lobe {
     }
     pub(super) fn add_branches(&self, wo: Vector3, branches: &mut Branches) {
         match self {
-            Self::Diffuse { .. } | Self::Ambient { .. } | Self::Highlight(_) => {}
-            Self::Glossy(glossy) => {
-                branches.add(BranchKind::Reflection, mirrored(wo), glossy.branch_weight(wo))
+            Self::Diffuse { .. }
+            | Self::Ambient { .. }
+            | Self::Highlight(_)
+            | Self::Matte(_)
+            | Self::Behind { .. } => {}
+            Self::Glossy(_) | Self::Phong(_) | Self::Layered(_) => {
+                let weight = self.look().map_or(Spectrum::BLACK, |glossy| glossy.branch_weight(wo));
+                branches.add(BranchKind::Reflection, mirrored(wo), weight)
             }
             Self::Mirror { weight } => branches.add(BranchKind::Reflection, mirrored(wo), *weight),
             Self::Interface(interface) => interface.add_branches(wo, branches),
@@ -80,7 +106,7 @@ impl Lobe {
     /// Adds the directions that are perfectly sharp; see [`super::Bsdf::sharp`].
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
         match self {
-            Self::Gloss(_) => {}
+            Self::Gloss(_) | Self::Phong(_) | Self::Layered(_) => {}
             Self::Glossy(glossy) if glossy.spreads() => {}
             Self::Blurred(blurred) => blurred.add_sharp_branches(wo, branches),
             _ => self.add_branches(wo, branches),
@@ -96,6 +122,14 @@ impl Lobe {
                 }
             }
             Self::Blurred(blurred) => blurred.draw(wo, u, draws),
+            Self::Phong(phong) => phong.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
+            Self::Layered(layered) => {
+                // The kind is chosen by what the first number tells beyond it.
+                let stretched = u.x * CHOICES;
+                let u = Point2::new(stretched - stretched.floor(), u.y);
+                let choice = (stretched.floor() + 0.5) / CHOICES;
+                layered.draw(wo, choice, u).into_iter().for_each(|drawn| draws.add(drawn));
+            }
             _ => {}
         }
     }
@@ -105,6 +139,8 @@ impl Lobe {
             Self::Gloss(gloss) => Some(gloss.pdf(wo, wi)),
             Self::Glossy(glossy) if glossy.spreads() => Some(glossy.pdf(wo, wi)),
             Self::Blurred(blurred) => Some(blurred.pdf(wo, wi)),
+            Self::Phong(phong) => Some(phong.pdf(wo, wi)),
+            Self::Layered(layered) => Some(layered.pdf(wo, wi)),
             _ => None,
         }
     }
@@ -116,8 +152,16 @@ impl Lobe {
     pub(super) fn share_beside_branches(&self) -> f32 {
         match self {
             Self::Gloss(_) | Self::Blurred(_) => 0.0,
-            Self::Glossy(glossy) => 1.0 - glossy.mirror_share(),
-            _ => 1.0,
+            _ => self.look().map_or(1.0, |glossy| 1.0 - glossy.mirror_share()),
+        }
+    }
+    /// The glossy lobe that it is, or looks like to integrators that draw no directions.
+    pub(super) fn look(&self) -> Option<Glossy> {
+        match self {
+            Self::Glossy(glossy) => Some(*glossy),
+            Self::Phong(phong) => Some(phong.look()),
+            Self::Layered(layered) => Some(layered.look()),
+            _ => None,
         }
     }
     /// The colour people would name; see [`super::Bsdf::albedo`].
@@ -125,11 +169,34 @@ impl Lobe {
         match self {
             Self::Diffuse { albedo } => *albedo,
             Self::Ambient { .. } | Self::Highlight(_) => Spectrum::BLACK,
-            Self::Glossy(glossy) => glossy.f0 * glossy.scale,
+            Self::Glossy(glossy) => glossy.reflectance.ends().0 * glossy.scale,
             Self::Mirror { weight } | Self::PassThrough { weight } => *weight,
             Self::Gloss(gloss) => gloss.weight,
+            Self::Matte(matte) => matte.albedo(),
+            Self::Behind { albedo } => *albedo,
+            Self::Phong(phong) => phong.specular,
+            Self::Layered(layered) => layered.look().reflectance.ends().0 * layered.scale,
             Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
+        }
+    }
+    /// The same lobe, dimmed: its share in a mixture.
+    #[must_use]
+    pub(crate) fn scaled(self, by: f32) -> Self {
+        match self {
+            Self::Diffuse { albedo } => Self::Diffuse { albedo: albedo * by },
+            Self::Ambient { coefficient } => Self::Ambient { coefficient: coefficient * by },
+            Self::Highlight(h) => Self::Highlight(Highlight { specular: h.specular * by, ..h }),
+            Self::Glossy(g) => Self::Glossy(Glossy { scale: g.scale * by, ..g }),
+            Self::Mirror { weight } => Self::Mirror { weight: weight * by },
+            Self::Interface(interface) => Self::Interface(interface.scaled(by)),
+            Self::Gloss(g) => Self::Gloss(Gloss { weight: g.weight * by, ..g }),
+            Self::Blurred(b) => Self::Blurred(Blurred { interface: b.interface.scaled(by), ..b }),
+            Self::Matte(matte) => Self::Matte(matte.scaled(by)),
+            Self::Behind { albedo } => Self::Behind { albedo: albedo * by },
+            Self::Phong(p) => Self::Phong(Phong { specular: p.specular * by, ..p }),
+            Self::Layered(l) => Self::Layered(Layered { scale: l.scale * by, ..l }),
+            Self::PassThrough { weight } => Self::PassThrough { weight: weight * by },
         }
     }
 }

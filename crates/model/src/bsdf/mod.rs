@@ -8,15 +8,21 @@
 //! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
 
 mod blurred;
+mod bounced;
 mod branch;
+mod coat;
 mod draw;
+mod facets;
 mod fresnel;
 mod ggx;
 mod gloss;
 mod glossy;
 mod highlight;
 mod interface;
+mod layered;
 mod lobe;
+mod matte;
+mod phong;
 mod refract;
 mod scatter;
 mod straight;
@@ -28,15 +34,22 @@ use durer_core::{
 };
 
 pub use blurred::{Blur, Blurred};
+pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};
-use fresnel::schlick_rise;
-pub use fresnel::{fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick};
+pub use facets::Facets;
+pub use fresnel::{
+    Reflectance, fresnel_conductor, fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick,
+};
 pub use gloss::Gloss;
 pub use glossy::{Glossy, SMOOTH};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
+pub use layered::{Layered, mirrored_by_layers};
 pub use lobe::Lobe;
+pub use matte::Matte;
+pub use phong::Phong;
 pub use refract::{reflect, refract};
 pub use scatter::Scattered;
 pub use straight::Straight;
@@ -73,7 +86,7 @@ impl Default for Bsdf {
 
 impl Bsdf {
     /// Most lobes a material can return.
-    pub const MOST_LOBES: usize = 4;
+    pub const MOST_LOBES: usize = 7;
 
     /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
     #[must_use]
@@ -94,6 +107,14 @@ impl Bsdf {
             *place = Some(lobe);
             self.count += 1;
         }
+    }
+    /// The share `t` of `other` and the rest of this one; `None` if that is more than [`Bsdf::MOST_LOBES`].
+    pub fn mixed(&self, other: &Self, t: f32) -> Option<Self> {
+        if self.count + other.count > Self::MOST_LOBES {
+            return None;
+        }
+        let own = self.lobes().map(|lobe| lobe.scaled(1.0 - t));
+        Some(own.chain(other.lobes().map(|lobe| lobe.scaled(t))).fold(Self::default(), Self::with))
     }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
@@ -136,7 +157,7 @@ impl Bsdf {
     }
     /// True if light from the other side is scattered to this one.
     pub fn is_frosted(&self) -> bool {
-        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_)))
+        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_) | Lobe::Behind { .. }))
     }
     /// True if no light without extent is reflected: all lobes are perfectly sharp.
     pub fn is_sharp(&self) -> bool {
@@ -148,6 +169,10 @@ impl Bsdf {
                     | Lobe::Glossy(_)
                     | Lobe::Gloss(_)
                     | Lobe::Blurred(_)
+                    | Lobe::Matte(_)
+                    | Lobe::Behind { .. }
+                    | Lobe::Phong(_)
+                    | Lobe::Layered(_)
             )
         })
     }
@@ -158,7 +183,8 @@ impl Bsdf {
             _ => None,
         };
         let diffuse = |lobe: &Lobe| match lobe {
-            Lobe::Diffuse { albedo } => Some(*albedo),
+            Lobe::Diffuse { albedo } | Lobe::Behind { albedo } => Some(*albedo),
+            Lobe::Matte(matte) => Some(matte.albedo()),
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
@@ -168,10 +194,7 @@ impl Bsdf {
     /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
     /// one whose `alpha` is their weighted mean.
     pub fn glossy(&self, wo: Vector3) -> Option<GlossyView> {
-        let views = self.lobes().filter_map(|lobe| match lobe {
-            Lobe::Glossy(glossy) => glossy.view(wo),
-            _ => None,
-        });
+        let views = self.lobes().filter_map(|lobe| lobe.look()?.view(wo));
         let seen = views.reduce(|a, b| {
             let (wa, wb) = (a.weight.mean(), b.weight.mean());
             let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
@@ -200,7 +223,7 @@ impl Bsdf {
     /// Whether directions can be drawn from a lobe.
     pub fn spreads(&self) -> bool {
         self.lobes().any(|lobe| match lobe {
-            Lobe::Gloss(_) | Lobe::Blurred(_) => true,
+            Lobe::Gloss(_) | Lobe::Blurred(_) | Lobe::Phong(_) | Lobe::Layered(_) => true,
             Lobe::Glossy(glossy) => glossy.spreads(),
             _ => false,
         })

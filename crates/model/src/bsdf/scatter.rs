@@ -11,9 +11,9 @@ use durer_core::{
     sampling::cosine_hemisphere,
     spectrum::Spectrum,
 };
-use std::f32::consts::FRAC_1_PI;
+use std::f32::consts::{FRAC_1_PI, PI};
 
-use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Lobe};
+use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Facets, Lobe};
 
 /// A direction that a path goes on in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl Bsdf {
         let (lobe, chance, choice) = self.choose(wo, choice)?;
         let number = lobe;
         let lobe = self.lobes[number].as_ref()?;
-        let own = lobe.scatter(wo, choice, u)?;
+        let own = lobe.scatter(wo, choice, u, chance == 1.0)?;
         let compression = lobe.compression(wo, own.kind);
         let common = Scattered {
             kind: own.kind,
@@ -178,7 +178,12 @@ impl Lobe {
         match self {
             Self::Ambient { .. } => 0.0,
             Self::Highlight(_) if shows => 0.0,
-            Self::Diffuse { albedo } => albedo.mean(),
+            Self::Diffuse { albedo } | Self::Behind { albedo } => albedo.mean(),
+            Self::Matte(matte) => matte.directional_albedo(wo).mean(),
+            Self::Phong(phong) => phong.specular.mean(),
+            Self::Layered(layered) => {
+                layered.look().reflectance.ends().0.mean() * layered.passed(wo) * layered.scale
+            }
             Self::Highlight(highlight) => highlight.specular.mean(),
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
             Self::Mirror { weight } | Self::PassThrough { weight } => weight.mean(),
@@ -188,8 +193,8 @@ impl Lobe {
         }
     }
 
-    /// A direction of this lobe.
-    fn scatter(&self, wo: Vector3, choice: f32, u: Point2) -> Option<OfLobe> {
+    /// A direction of this lobe; if it is not `alone`, a spread one's weight and density do not matter.
+    fn scatter(&self, wo: Vector3, choice: f32, u: Point2, alone: bool) -> Option<OfLobe> {
         let sharp = || {
             let mut branches = Branches::default();
             self.add_sharp_branches(wo, &mut branches);
@@ -197,6 +202,24 @@ impl Lobe {
         };
         match self {
             Self::Diffuse { albedo } => cosine(wo, *albedo, u),
+            Self::Behind { albedo } => {
+                cosine(-wo, *albedo, u).map(|own| OfLobe { kind: BranchKind::Transmission, ..own })
+            }
+            Self::Matte(matte) => {
+                let own = cosine(wo, Spectrum::ONE, u)?;
+                let weight = matte.eval(wo, own.wi) * PI;
+                (!weight.is_black()).then_some(OfLobe { weight, ..own })
+            }
+            Self::Phong(phong) => phong.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Layered(layered) if alone => layered.draw(wo, choice, u).as_ref().map(OfLobe::drawn),
+            // PERF: a walk saved (bench render).
+            Self::Layered(layered) => layered.direction(wo, choice, u).map(|wi| OfLobe {
+                kind: BranchKind::Reflection,
+                wi,
+                weight: Spectrum::ONE,
+                pdf: Some(1.0),
+                chance: 1.0,
+            }),
             Self::Highlight(highlight) => {
                 let wi = highlight.draw(wo, u)?;
                 let pdf = highlight.pdf(wo, wi);
@@ -217,12 +240,16 @@ impl Lobe {
 
     fn regularize(&mut self) {
         match self {
-            Self::Glossy(glossy) => glossy.alpha = blurred(glossy.alpha),
+            Self::Glossy(glossy) => glossy.facets = glossy.facets.map(blurred),
             Self::Interface(interface) => {
-                let blur = Blur::Microfacet { alpha: blurred(0.0) };
+                let blur = Blur::Microfacet(Facets::round(blurred(0.0)));
                 *self = Self::Blurred(Blurred { interface: *interface, blur });
             }
-            Self::Blurred(Blurred { blur: Blur::Microfacet { alpha }, .. }) => *alpha = blurred(*alpha),
+            Self::Layered(layered) => {
+                layered.coat = layered.coat.map(blurred);
+                layered.metal = layered.metal.map(blurred);
+            }
+            Self::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => *facets = facets.map(blurred),
             _ => {}
         }
     }
@@ -230,12 +257,17 @@ impl Lobe {
     /// Density of [`Lobe::scatter`] at `wi`, 1/sr; 0 where it is sharp.
     fn density(&self, wo: Vector3, wi: Vector3) -> f32 {
         match self {
-            Self::Diffuse { .. } if wo.z * wi.z > 0.0 => wi.z.abs() * FRAC_1_PI,
+            Self::Diffuse { .. } | Self::Matte(_) if wo.z * wi.z > 0.0 => wi.z.abs() * FRAC_1_PI,
+            Self::Behind { .. } if wo.z * wi.z < 0.0 => wi.z.abs() * FRAC_1_PI,
+            Self::Phong(phong) => phong.pdf(wo, wi),
+            Self::Layered(layered) => layered.pdf(wo, wi),
             Self::Highlight(highlight) => highlight.pdf(wo, wi),
             Self::Glossy(glossy) if glossy.spreads() => glossy.pdf(wo, wi),
             Self::Gloss(gloss) => gloss.pdf(wo, wi),
             Self::Blurred(blurred) => blurred.density(wo, wi),
             Self::Diffuse { .. }
+            | Self::Matte(_)
+            | Self::Behind { .. }
             | Self::Ambient { .. }
             | Self::Glossy(_)
             | Self::Mirror { .. }

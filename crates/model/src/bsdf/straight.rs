@@ -43,6 +43,10 @@ impl Lobe {
             | Self::Highlight(_)
             | Self::Glossy(_)
             | Self::Gloss(_)
+            | Self::Matte(_)
+            | Self::Behind { .. }
+            | Self::Phong(_)
+            | Self::Layered(_)
             | Self::Mirror { .. } => Spectrum::BLACK,
         }
     }

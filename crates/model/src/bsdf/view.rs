@@ -54,6 +54,10 @@ impl Lobe {
             Self::Interface(_) => "glass",
             Self::Gloss(_) => "gloss",
             Self::Blurred(_) => "frosted",
+            Self::Matte(_) => "matte",
+            Self::Behind { .. } => "translucent",
+            Self::Phong(_) => "phong",
+            Self::Layered(_) => "layered",
             Self::PassThrough { .. } => "clear",
         }
     }
@@ -76,16 +80,28 @@ impl Lobe {
             Self::Diffuse { albedo } => LobeView { reflectance: *albedo, ..none },
             Self::Ambient { coefficient } => LobeView { reflectance: *coefficient, ..none },
             Self::Highlight(h) => LobeView { reflectance: h.specular, exponent: Some(h.exponent), ..none },
-            Self::Glossy(g) => LobeView { reflectance: g.f0 * g.scale, alpha: Some(g.alpha), ..none },
+            Self::Glossy(g) => LobeView {
+                reflectance: g.reflectance.ends().0 * g.scale,
+                alpha: Some(g.facets.alpha()),
+                ..none
+            },
             Self::Mirror { weight } => LobeView { reflectance: *weight, ..none },
             Self::Gloss(g) => LobeView { reflectance: g.weight, exponent: Some(g.exponent), ..none },
             Self::PassThrough { weight } => LobeView { transmittance: *weight, ..none },
+            Self::Matte(matte) => LobeView { reflectance: matte.albedo(), ..none },
+            Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
+            Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
+            Self::Layered(_) => LobeView {
+                reflectance: self.tint(),
+                alpha: self.look().map(|glossy| glossy.facets.alpha()),
+                ..none
+            },
             Self::Interface(interface) => split(interface),
             Self::Blurred(Blurred { interface, blur }) => match blur {
                 Blur::Cosine { reflection, transmission } => {
                     LobeView { exponent: Some(reflection.min(*transmission)), ..split(interface) }
                 }
-                Blur::Microfacet { alpha } => LobeView { alpha: Some(*alpha), ..split(interface) },
+                Blur::Microfacet(facets) => LobeView { alpha: Some(facets.alpha()), ..split(interface) },
             },
         }
     }

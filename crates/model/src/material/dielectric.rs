@@ -2,10 +2,10 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Arriving, Material, Sent, roughness::Roughness, warn_unsupported};
+use super::{Arriving, Material, Sent, detail::Detail, roughness::Roughness};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe, SMOOTH},
+    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe},
 };
 
 /// An interface; the outside is where the normal points.
@@ -13,10 +13,8 @@ use crate::{
 pub struct Dielectric {
     medium: Medium,
     roughness: Roughness,
+    detail: Detail,
 }
-
-/// Parameters of pbrt's surface detail.
-const UNSUPPORTED: &[&str] = &["displacement", "normalmap"];
 
 impl Kind for Dielectric {
     type Output = Box<dyn Material>;
@@ -38,29 +36,28 @@ impl Kind for Dielectric {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
-            ParamSpec::new(
-                "displacement",
-                ParamType::FloatTexture,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
-            ParamSpec::new("normalmap", ParamType::Text, ParamDefault::Unset, "Not supported yet."),
+            Detail::DISPLACEMENT,
+            Detail::NORMAL_MAP,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        warn_unsupported(args, UNSUPPORTED);
         let eta = args.index("eta");
-        Some(Box::new(Self { medium: Medium::read(args, eta), roughness: Roughness::read(args) }))
+        Some(Box::new(Self {
+            medium: Medium::read(args, eta),
+            roughness: Roughness::read(args),
+            detail: Detail::read(args),
+        }))
     }
 }
 
 impl Material for Dielectric {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.detail.tilt(cx, surface, wo);
         let interface = Interface::clear(self.medium.eta);
-        let alpha = self.roughness.alpha(cx, &surface.texture_at());
-        Bsdf::default().with(match alpha < SMOOTH {
+        let facets = self.roughness.facets(cx, surface);
+        Bsdf::default().with(match facets.is_smooth() {
             true => Lobe::Interface(interface),
-            false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet { alpha } }),
+            false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
         })
     }
     fn medium(&self) -> Option<Medium> {

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Glossy, Lobe, SMOOTH},
+    bsdf::{Bsdf, Glossy, Lobe, Reflectance},
 };
 
 /// A mirror, the same from both sides and under all angles.
@@ -44,10 +44,11 @@ impl Material for Mirror {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
         let weight = share(cx, self.reflectance, &at);
-        let alpha = self.roughness.alpha(cx, &at);
-        Bsdf::default().with(match alpha < SMOOTH {
+        let facets = self.roughness.facets(cx, surface);
+        let reflectance = Reflectance::Schlick { f0: weight, f90: weight };
+        Bsdf::default().with(match facets.is_smooth() {
             true => Lobe::Mirror { weight },
-            false => Lobe::Glossy(Glossy { f0: weight, f90: weight, alpha, scale: 1.0 }),
+            false => Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 }),
         })
     }
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {

@@ -3,14 +3,22 @@
 //! A new material is one file here and one line in [`MATERIALS`].
 
 mod classic;
+mod coatedconductor;
+mod coateddiffuse;
+mod conductor;
+mod detail;
 mod dielectric;
 mod diffuse;
+mod diffusetransmission;
 mod interface;
 mod mirror;
+mod mix;
 mod normal_map;
+mod phong;
 mod principled;
 mod roughness;
 mod sent;
+mod thindielectric;
 
 use std::fmt::Debug;
 
@@ -19,12 +27,19 @@ use durer_scene::{Args, ColorInput, Entry};
 
 pub use self::{
     classic::Classic,
+    coatedconductor::CoatedConductor,
+    coateddiffuse::CoatedDiffuse,
+    conductor::Conductor,
     dielectric::Dielectric,
     diffuse::Diffuse,
+    diffusetransmission::DiffuseTransmission,
     interface::Interface,
     mirror::Mirror,
+    mix::Mix,
+    phong::Phong,
     principled::Principled,
     sent::{Arriving, GlossRays, Sent},
+    thindielectric::ThinDielectric,
 };
 use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
@@ -38,8 +53,11 @@ pub trait Material: Debug + Send + Sync {
         let _ = (cx, at);
         Spectrum::BLACK
     }
-    /// The most that it can send where no more than this arrives.
-    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent;
+    /// The most that it can send where no more than this arrives; no bound unless a material knows one.
+    fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        let _ = (cx, arriving);
+        Sent::UNBOUNDED
+    }
     /// What fills the body behind the surface, if light can get in.
     fn medium(&self) -> Option<Medium> {
         None
@@ -71,20 +89,18 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Classic>(),
     Entry::of::<Principled>(),
     Entry::of::<Interface>(),
+    Entry::of::<Conductor>(),
+    Entry::of::<CoatedDiffuse>(),
+    Entry::of::<CoatedConductor>(),
+    Entry::of::<ThinDielectric>(),
+    Entry::of::<DiffuseTransmission>(),
+    Entry::of::<Phong>(),
+    Entry::of::<Mix>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
-pub const NOT_YET: &[(&str, &str)] = &[
-    ("conductor", "mirror"),
-    ("coateddiffuse", "diffuse"),
-    ("coatedconductor", "mirror"),
-    ("diffusetransmission", "diffuse"),
-    ("thindielectric", "dielectric"),
-    ("hair", "diffuse"),
-    ("measured", "diffuse"),
-    ("mix", "diffuse"),
-    ("subsurface", "diffuse"),
-];
+pub const NOT_YET: &[(&str, &str)] =
+    &[("hair", "diffuse"), ("measured", "diffuse"), ("subsurface", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)
@@ -109,13 +125,4 @@ fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
 /// No [`share`] of this input is larger.
 fn largest_share(cx: &ShadeCx<'_>, input: ColorInput) -> f32 {
     cx.largest_color(input).min(1.0)
-}
-
-/// Warns about each of the parameters `names` that the file gives.
-fn warn_unsupported(args: &mut Args<'_>, names: &[&str]) {
-    for name in names {
-        if args.is_set(name) {
-            args.warning(name, format!("\"{name}\" is not supported yet and has no effect"));
-        }
-    }
 }

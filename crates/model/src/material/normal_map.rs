@@ -28,7 +28,11 @@ pub(super) fn tilted(surface: &Surface, c: Color, scale: f32, wo: Vector3) -> No
     let bitangent = if bitangent.dot(surface.dpdv) < 0.0 { -bitangent } else { bitangent };
     let [x, y, z] = c.rgb.map(|v| 2.0 * v - 1.0);
     let n = (tangent * (x * scale) + bitangent * (y * scale) + n_s * z).normalize();
+    kept(surface, n, wo)
+}
 
+/// The normal `n`, unit, as far as it can be kept: on the outside, and on the viewer's side.
+pub(super) fn kept(surface: &Surface, n: Vector3, wo: Vector3) -> Normal3 {
     let viewer = if surface.is_outside(wo) { wo } else { -wo };
     let cos = n.dot(viewer);
     let n = if cos < MIN_COSINE { (n + viewer * (MIN_COSINE - cos)).normalize() } else { n };

@@ -1,9 +1,10 @@
 //! pbrt's words for how rough a surface is, and the GGX width they mean.
+use durer_core::math::{Frame, Vector3};
 use durer_scene::{Args, FloatInput, ParamDefault, ParamSpec, ParamType};
 
-use crate::{ShadeCx, texture::TextureAt};
+use crate::{ShadeCx, Surface, bsdf::Facets};
 
-/// Roughness of microfacets, the same in all directions.
+/// Roughness of microfacets, along u and across it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Roughness {
     u: FloatInput,
@@ -12,24 +13,35 @@ pub(super) struct Roughness {
     remap: bool,
 }
 
+/// What the four parameters are called.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Words {
+    pub(super) both: &'static str,
+    pub(super) u: &'static str,
+    pub(super) v: &'static str,
+}
+
+impl Words {
+    pub(super) const USUAL: Self = Self { both: "roughness", u: "uroughness", v: "vroughness" };
+
+    pub(super) const fn both(self) -> ParamSpec {
+        let (ty, default) = (ParamType::FloatTexture, ParamDefault::Float(0.0));
+        ParamSpec::new(self.both, ty, default, "Roughness; 0 is smooth.").range(0.0, 1.0)
+    }
+    pub(super) const fn u(self) -> ParamSpec {
+        let doc = "Roughness along u, where it differs from that along v.";
+        ParamSpec::new(self.u, ParamType::FloatTexture, ParamDefault::Unset, doc).range(0.0, 1.0)
+    }
+    pub(super) const fn v(self) -> ParamSpec {
+        let doc = "Roughness along v.";
+        ParamSpec::new(self.v, ParamType::FloatTexture, ParamDefault::Unset, doc).range(0.0, 1.0)
+    }
+}
+
 impl Roughness {
-    pub(super) const BOTH: ParamSpec = ParamSpec::new(
-        "roughness",
-        ParamType::FloatTexture,
-        ParamDefault::Float(0.0),
-        "Roughness; 0 is smooth.",
-    )
-    .range(0.0, 1.0);
-    pub(super) const U: ParamSpec = ParamSpec::new(
-        "uroughness",
-        ParamType::FloatTexture,
-        ParamDefault::Unset,
-        "Roughness along u; the geometric mean of both directions is used.",
-    )
-    .range(0.0, 1.0);
-    pub(super) const V: ParamSpec =
-        ParamSpec::new("vroughness", ParamType::FloatTexture, ParamDefault::Unset, "Roughness along v.")
-            .range(0.0, 1.0);
+    pub(super) const BOTH: ParamSpec = Words::USUAL.both();
+    pub(super) const U: ParamSpec = Words::USUAL.u();
+    pub(super) const V: ParamSpec = Words::USUAL.v();
     pub(super) const REMAP: ParamSpec = ParamSpec::new(
         "remaproughness",
         ParamType::Bool,
@@ -39,36 +51,42 @@ impl Roughness {
 
     /// Reads the four parameters.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
-        let both = args.float_input("roughness");
+        Self::read_as(args, Words::USUAL)
+    }
+
+    /// Reads the four parameters under these names.
+    pub(super) fn read_as(args: &mut Args<'_>, words: Words) -> Self {
+        let both = args.float_input(words.both);
         let mut one = |name: &str| if args.is_set(name) { args.float_input(name) } else { both };
-        let (u, v) = (one("uroughness"), one("vroughness"));
-        if u != v {
-            args.warning(
-                "uroughness",
-                "roughness that differs along u and v is not supported yet; its mean is used",
-            );
-        }
+        let (u, v) = (one(words.u), one(words.v));
         Self { u, v, remap: args.bool("remaproughness") }
     }
 
-    /// The GGX width at a point, in `[0, 1]`.
-    pub(super) fn alpha(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        self.width(|input| cx.float(input, at))
+    /// The facets at a place whose shading normal is settled.
+    pub(super) fn facets(&self, cx: &ShadeCx<'_>, surface: &Surface) -> Facets {
+        let at = surface.texture_at();
+        let alpha = |input: FloatInput| {
+            let value = cx.float(input, &at).clamp(0.0, 1.0);
+            if self.remap { value.sqrt() } else { value }
+        };
+        if self.u == self.v {
+            return Facets::round(alpha(self.u));
+        }
+        Facets::along(tangent(surface), alpha(self.u), alpha(self.v))
     }
 
-    /// The GGX width if it is the same everywhere.
+    /// The one width of all points, if it is the same everywhere and in all directions.
     pub(super) fn constant(&self) -> Option<f32> {
         match (self.u, self.v) {
-            (FloatInput::Constant(u), FloatInput::Constant(v)) => {
-                Some(self.width(|input| if input == self.u { u } else { v }))
+            (FloatInput::Constant(u), FloatInput::Constant(v)) if u == v => {
+                Some(if self.remap { u.clamp(0.0, 1.0).sqrt() } else { u.clamp(0.0, 1.0) })
             }
             _ => None,
         }
     }
+}
 
-    fn width(&self, value: impl Fn(FloatInput) -> f32) -> f32 {
-        let value = |input: FloatInput| value(input).clamp(0.0, 1.0);
-        let mean = if self.u == self.v { value(self.u) } else { (value(self.u) * value(self.v)).sqrt() };
-        if self.remap { mean.sqrt() } else { mean }
-    }
+/// The direction of growing u in the frame of the lobes.
+pub(super) fn tangent(surface: &Surface) -> Vector3 {
+    Frame::from_z(surface.n_s).to_local(surface.dpdu)
 }

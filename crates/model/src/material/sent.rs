@@ -53,6 +53,9 @@ pub struct Sent {
 }
 
 impl Sent {
+    /// Nothing is known.
+    pub const UNBOUNDED: Self = Self { own: f32::INFINITY, scattered: 0.0, followed: 0.0 };
+
     /// The largest radiance in a scene whose other surfaces send no more; infinite if there is none.
     pub fn bound(&self) -> f32 {
         match self.own {

@@ -9,8 +9,8 @@ use durer_model::{
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, Location, Missing, Node, Params, SceneDesc, ShapeDesc, ShapeSource,
-    TextureDesc, TextureNames, find,
+    Args, Assets, Diagnostics, Entry, Location, Missing, NamedNode, Node, Params, SceneDesc, ShapeDesc,
+    ShapeSource, TextureDesc, TextureNames, find,
 };
 
 use rayon::prelude::*;
@@ -34,7 +34,7 @@ impl Builder<'_> {
         node: &Node,
         textures: &[TextureDesc],
     ) -> Option<T> {
-        let (built, said) = self.apart(registry, family, node, textures);
+        let (built, said) = self.apart(registry, family, node, (textures, &[]));
         self.diagnostics.append(said);
         built
     }
@@ -45,12 +45,13 @@ impl Builder<'_> {
         registry: &[Entry<T>],
         family: &str,
         node: &Node,
-        textures: &[TextureDesc],
+        (textures, before): (&[TextureDesc], &[NamedNode]),
     ) -> (Option<T>, Diagnostics) {
         let mut said = Diagnostics::default();
         let built = find(registry, family, node, &mut said).and_then(|entry| {
             let mut args = Args::check(node, entry.schema, textures, &mut said)
                 .with_assets(self.assets, self.missing)
+                .with_before(before)
                 .with_names(self.names);
             let built = (entry.build)(&mut args);
             args.is_sound().then_some(built).flatten()
@@ -81,7 +82,7 @@ impl Builder<'_> {
         let nodes: Vec<_> = all.iter().map(|t| stand_in(&t.node, texture::NOT_YET)).collect();
         let built = self.build_all(all, |this, i, t| {
             let before = all.get(..i).unwrap_or_default();
-            this.apart(texture::textures(t.value), "texture", &nodes[i], before)
+            this.apart(texture::textures(t.value), "texture", &nodes[i], (before, &[]))
         });
         built.into_iter().flatten().collect()
     }
@@ -90,9 +91,12 @@ impl Builder<'_> {
         let mut materials = Vec::new();
         let all = &self.desc.materials;
         warn_stand_ins("material", all.iter().map(|m| &m.node), material::NOT_YET, self.diagnostics);
-        for named in all {
+        for (i, named) in all.iter().enumerate() {
             let node = stand_in(&named.node, material::NOT_YET);
-            materials.extend(self.build(MATERIALS, "material", &node, &self.desc.textures));
+            let before = all.get(..i).unwrap_or_default();
+            let (built, said) = self.apart(MATERIALS, "material", &node, (&self.desc.textures, before));
+            self.diagnostics.append(said);
+            materials.extend(built);
         }
         materials
     }
@@ -122,7 +126,8 @@ impl Builder<'_> {
             });
         }
         let textures = &self.desc.textures;
-        let built = self.build_all(&distinct, |this, _, node| this.apart(SHAPES, "shape", node, textures));
+        let built =
+            self.build_all(&distinct, |this, _, node| this.apart(SHAPES, "shape", node, (textures, &[])));
         number_of.into_iter().map(|number: Option<usize>| built[number?].clone()).collect()
     }
 

@@ -2,6 +2,7 @@
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::Seen;
+use durer_model::material::GlossRays;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
@@ -76,6 +77,9 @@ impl Kind for Cast {
 }
 
 impl Transport for Cast {
+    fn bounded(&self) -> Option<GlossRays> {
+        Some(GlossRays::Main)
+    }
     fn output(&self) -> Output {
         match self.show {
             Show::Shading | Show::Albedo => Output::Radiance,

@@ -11,6 +11,7 @@
 //! mirror direction.
 use std::num::NonZeroU32;
 
+use durer_model::material::GlossRays;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
@@ -132,6 +133,9 @@ impl Kind for Distributed {
 }
 
 impl Transport for Distributed {
+    fn bounded(&self) -> Option<GlossRays> {
+        Some(if self.rules.gloss_rays.is_some() { GlossRays::Drawn } else { GlossRays::Main })
+    }
     fn depth_limit(&self) -> Option<u32> {
         Some(self.rules.max_depth)
     }

@@ -11,6 +11,7 @@ mod shading;
 mod walk;
 mod whitted;
 
+use durer_model::material::GlossRays;
 use durer_scene::Entry;
 
 use crate::{
@@ -59,6 +60,10 @@ pub trait Transport: Send + Sync {
     fn depth_limit(&self) -> Option<u32> {
         None
     }
+    /// How it sees gloss, if what it follows is bounded by [`crate::Scene::brightest`].
+    fn bounded(&self) -> Option<GlossRays> {
+        None
+    }
     /// Traces `ray` and all it spawns; leaves what arrives in `out`.
     fn sample<P: Probe>(
         &self,
@@ -87,6 +92,8 @@ pub trait Integrator: Send + Sync {
     fn eye_samples(&self, asked: u32) -> EyeSamples;
     /// [`Transport::depth_limit`].
     fn depth_limit(&self) -> Option<u32>;
+    /// [`Transport::bounded`].
+    fn bounded(&self) -> Option<GlossRays>;
     /// [`Transport::sample`], unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::sample`], recorded.
@@ -106,6 +113,9 @@ impl<T: Transport> Integrator for T {
     }
     fn depth_limit(&self) -> Option<u32> {
         Transport::depth_limit(self)
+    }
+    fn bounded(&self) -> Option<GlossRays> {
+        Transport::bounded(self)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         Transport::sample(self, cx, ray, (), &mut NoProbe, out);

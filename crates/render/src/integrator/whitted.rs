@@ -5,6 +5,7 @@
 //!
 //! Diffuse interreflection is left to the ambient term. Unlike in 1980 the ambient term knows the normal (a sky's
 //! unoccluded irradiance), and glossy lobes see the sky's blurred mirror image.
+use durer_model::material::GlossRays;
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
@@ -36,6 +37,9 @@ impl Kind for Whitted {
 }
 
 impl Transport for Whitted {
+    fn bounded(&self) -> Option<GlossRays> {
+        Some(GlossRays::Main)
+    }
     fn depth_limit(&self) -> Option<u32> {
         Some(self.rules.max_depth)
     }

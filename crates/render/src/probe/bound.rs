@@ -46,7 +46,9 @@ impl Scene {
             let own = sent.bound();
             if own.is_infinite() && sent.own.is_infinite() {
                 let name = &object.name;
-                return Err(format!("highlights of lights without extent on \"{name}\" have no bound"));
+                return Err(format!(
+                    "highlights of lights without extent on \"{name}\" have no bound, or nobody knows one of its material"
+                ));
             } else if own.is_infinite() {
                 let name = &object.name;
                 return Err(format!("\"{name}\" adds light to all that it reflects or lets through"));

@@ -1,10 +1,10 @@
 //! Checked access to the parameters of a node.
 use std::sync::Arc;
 
-use super::{ParamDefault, ParamSpec, ParamType, Schema, TextureNames};
+use super::{Entry, ParamDefault, ParamSpec, ParamType, Schema, TextureNames, find};
 use crate::{
-    AssetError, Assets, Data, Diagnostics, Image, Location, Mesh, Node, Param, TextureDesc, TextureValue,
-    ValueType,
+    AssetError, Assets, Data, Diagnostics, Image, Location, Mesh, NamedNode, Node, Param, TextureDesc,
+    TextureValue, ValueType,
 };
 
 /// A number, or the index of the float texture that gives it.
@@ -32,6 +32,10 @@ pub struct Args<'a> {
     schema: Schema,
     textures: &'a [TextureDesc],
     names: Option<&'a TextureNames<'a>>,
+    /// Nodes that parameters may name; those described before this one.
+    before: &'a [NamedNode],
+    /// How many nodes that name others lead here.
+    nested: u32,
     diagnostics: &'a mut Diagnostics,
     assets: Option<(&'a dyn Assets, Missing)>,
     sound: bool,
@@ -45,7 +49,17 @@ impl<'a> Args<'a> {
         textures: &'a [TextureDesc],
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
-        let mut args = Self { node, schema, textures, names: None, diagnostics, assets: None, sound: true };
+        let mut args = Self {
+            node,
+            schema,
+            textures,
+            names: None,
+            before: &[],
+            nested: 0,
+            diagnostics,
+            assets: None,
+            sound: true,
+        };
         for param in node.params.iter() {
             match schema.params.iter().find(|s| s.name == param.name) {
                 Some(spec) => args.check_param(param, spec),
@@ -71,6 +85,13 @@ impl<'a> Args<'a> {
     #[must_use]
     pub fn with_names(mut self, names: &'a TextureNames<'a>) -> Self {
         self.names = Some(names);
+        self
+    }
+
+    /// The same, with the nodes that a node of a family may name: those described before it.
+    #[must_use]
+    pub fn with_before(mut self, before: &'a [NamedNode]) -> Self {
+        self.before = before;
         self
     }
 
@@ -252,6 +273,41 @@ impl<'a> Args<'a> {
     /// 2D points; empty if left out.
     pub fn pairs(&self, name: &str) -> Vec<[f32; 2]> {
         self.floats(name).as_chunks::<2>().0.to_vec()
+    }
+    /// Texts; empty if left out.
+    pub fn texts(&self, name: &str) -> &'a [String] {
+        match self.node.params.get(name).map(|p| &p.data) {
+            Some(Data::Strings(v)) => v,
+            _ => &[],
+        }
+    }
+    /// What the node called `word` builds, which parameter `name` names, once more; complains if there is none before this
+    /// one, or if it cannot be built. What there is to complain about the other node itself is left to those who build it.
+    pub fn build_named<T>(&mut self, name: &str, word: &str, registry: &[Entry<T>]) -> Option<T> {
+        // Each level may build two of the one below.
+        const MOST_NESTED: u32 = 6;
+        let before = self.before;
+        let Some(index) = before.iter().rposition(|other| other.name == word) else {
+            let at = self.place(name);
+            self.sound = false;
+            self.diagnostics.unknown(at, name, word, before.iter().map(|other| other.name.as_str()));
+            return None;
+        };
+        let node = &before[index].node;
+        let mut unheard = Diagnostics::default();
+        let built = find(registry, name, node, &mut unheard).filter(|_| self.nested < MOST_NESTED).and_then(
+            |entry| {
+                let mut args = Args::check(node, entry.schema, self.textures, &mut unheard);
+                (args.names, args.assets) = (self.names, self.assets);
+                (args.before, args.nested) = (&before[..index], self.nested + 1);
+                let built = (entry.build)(&mut args);
+                args.is_sound().then_some(built).flatten()
+            },
+        );
+        if built.is_none() {
+            self.error(name, format!("\"{word}\" cannot be used in another one"));
+        }
+        built
     }
     /// A text, choice or path; empty if left out without default.
     pub fn text(&self, name: &str) -> &'a str {

@@ -1,5 +1,5 @@
 //! Colour parameters, and spectra until rays carry wavelengths: files of wavelength and value (`.spd`), lists, names.
-use durer_core::spectrum::{Color, HELIUM_D, Named, Sampled, blackbody, named, spectrum_names};
+use durer_core::spectrum::{Color, HELIUM_D, Named, Sampled, blackbody, curve, named, spectrum_names};
 
 use super::{Args, ParamDefault, args::range_text};
 use crate::{AssetError, Data, Location, TextureValue, ValueType, nearest_word};
@@ -74,6 +74,24 @@ impl Args<'_> {
             self.error(name, format!("\"{name}\" is {value} at 587.6 nm, expected {}", range_text(spec)));
         }
         value
+    }
+
+    /// The curve over wavelengths that parameter `name` gives or names; `None` if it is left out, no curve (a colour or a
+    /// texture), or after a complaint.
+    pub fn curve(&mut self, name: &str) -> Option<Sampled> {
+        let param = self.param(name)?;
+        if param.ty != ValueType::Spectrum {
+            return None;
+        }
+        if let Data::Strings(words) = &param.data
+            && let Some(known) = words.first().and_then(|word| curve(word))
+        {
+            return Some(known);
+        }
+        match self.spectrum(name)? {
+            Spectrum::Sampled(sampled) => Some(sampled),
+            Spectrum::Named(_) => None,
+        }
     }
 
     /// The spectrum that parameter `name` gives or names; `None` after a complaint.

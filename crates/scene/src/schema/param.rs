@@ -28,6 +28,8 @@ pub enum ParamType {
     Normals,
     /// Any text.
     Text,
+    /// Any number of texts, such as names.
+    Texts,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// A path relative to the scene file.
@@ -54,7 +56,7 @@ impl ParamType {
             Self::Point3 | Self::Point3s => &[V::Point3],
             Self::Vector3 | Self::Vector3s => &[V::Vector3],
             Self::Normals => &[V::Normal],
-            Self::Text | Self::Choice(_) | Self::File => &[V::String],
+            Self::Text | Self::Texts | Self::Choice(_) | Self::File => &[V::String],
             Self::Index => &[V::Float, V::Spectrum],
             Self::Color => &[V::Rgb, V::Spectrum, V::Blackbody],
             Self::ColorTexture => &[V::Rgb, V::Spectrum, V::Blackbody, V::Texture],
@@ -65,7 +67,13 @@ impl ParamType {
     pub fn is_list(self) -> bool {
         matches!(
             self,
-            Self::Ints | Self::Floats | Self::Point2s | Self::Point3s | Self::Vector3s | Self::Normals
+            Self::Ints
+                | Self::Floats
+                | Self::Point2s
+                | Self::Point3s
+                | Self::Vector3s
+                | Self::Normals
+                | Self::Texts
         )
     }
 }

@@ -10,10 +10,17 @@ use super::{
 const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "KHR_texture_transform",
@@ -23,17 +30,7 @@ const READ: &[&str] = &[
 const HARMLESS: &[&str] = &["KHR_animation_pointer", "KHR_materials_variants", "KHR_xmp", "KHR_xmp_json_ld"];
 
 /// Not read: materials look simpler. A scene that only uses one is drawn without it.
-const LOOKS_ONLY: &[&str] = &[
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_volume",
-];
+const LOOKS_ONLY: &[&str] = &["KHR_materials_dispersion", "KHR_materials_pbrSpecularGlossiness"];
 
 /// Not read, and data is missing without them; with a way out.
 const REFUSED: &[(&str, &str)] = &[

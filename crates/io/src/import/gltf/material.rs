@@ -108,8 +108,8 @@ fn sets<'a>(document: &Document<'a>, material: &Element<'a>) -> Checked<[usize; 
     Ok([first, second])
 }
 
-struct Builder<'m, 'b, 'a> {
-    document: &'m Document<'a>,
+pub(super) struct Builder<'m, 'b, 'a> {
+    pub(super) document: &'m Document<'a>,
     textures: &'m mut Textures<'b, 'a>,
     params: Params,
 }
@@ -129,9 +129,11 @@ fn principled<'a>(
         builder.emission(material)?;
         builder.normal(material)?;
         builder.dielectric(material)?;
+        builder.layers(material)?;
+        builder.body(material)?;
     }
     // Light that comes through a surface leaves it from behind.
-    let clear = builder.params.get("transmission").is_some();
+    let clear = ["transmission", "diffusetransmission"].iter().any(|name| builder.params.get(name).is_some());
     if !material.flag("doubleSided")? && !clear {
         builder.put(|p| p.bool("onesided", true));
     }
@@ -139,11 +141,17 @@ fn principled<'a>(
 }
 
 impl<'a> Builder<'_, '_, 'a> {
-    fn put(&mut self, make: impl FnOnce(Params) -> Params) {
+    pub(super) fn put(&mut self, make: impl FnOnce(Params) -> Params) {
         self.params = make(std::mem::take(&mut self.params));
     }
     /// The number `key` of `from`, brought into `[low, high]` with a warning.
-    fn ranged(&self, from: Option<&Element<'a>>, key: &str, default: f64, range: [f64; 2]) -> Checked<f64> {
+    pub(super) fn ranged(
+        &self,
+        from: Option<&Element<'a>>,
+        key: &str,
+        default: f64,
+        range: [f64; 2],
+    ) -> Checked<f64> {
         let Some(from) = from else { return Ok(default) };
         let value = from.number_or(key, default)?;
         let [low, high] = range;
@@ -154,7 +162,7 @@ impl<'a> Builder<'_, '_, 'a> {
         Ok(value.clamp(low, high))
     }
     /// A float parameter: the channel of a texture times `factor`, or `factor` alone.
-    fn float(
+    pub(super) fn float(
         &mut self,
         name: &str,
         info: Option<Element<'a>>,
@@ -173,7 +181,7 @@ impl<'a> Builder<'_, '_, 'a> {
         Ok(())
     }
     /// A colour parameter: a texture times `factor`, or `factor` alone.
-    fn color(&mut self, name: &str, info: Option<Element<'a>>, factor: [f64; 3]) -> Checked<()> {
+    pub(super) fn color(&mut self, name: &str, info: Option<Element<'a>>, factor: [f64; 3]) -> Checked<()> {
         let texture = match info {
             Some(info) if factor != [0.0; 3] => self.textures.texture(&info, Role::Color(factor))?,
             _ => None,

@@ -14,6 +14,7 @@ mod element;
 mod extension;
 mod instance;
 mod json;
+mod layers;
 mod material;
 mod mesh;
 mod morph;

@@ -1,13 +1,19 @@
-//! The metallic-roughness material of glTF 2.0 (appendix B), with thin transmission and coverage.
+//! The metallic-roughness material of glTF 2.0 (appendix B) and its extensions.
 //!
 //! A GGX lobe (alpha = roughness²) whose `f0` runs from `((eta - 1) / (eta + 1))²` (dielectric) to the base colour
 //! (metal); below the dielectric's part of it a diffuse body of the base colour. The appendix dims the body by `1 - F` of
 //! each pair of directions; here it is `1 - E(wo)` with `E` the directional albedo of the dielectric's lobe (albedo
-//! scaling): as `E` is affine in `f0`, the whole never reflects more than arrives. It is not reciprocal.
+//! scaling), and so are things below coats and fibres: as `E` is affine in `f0`, the whole never reflects more than arrives.
+//! It is not reciprocal, by a factor that is the same for all lights and lanes but depends on the view. Neither is the film,
+//! whose colour is that of the viewer's angle.
 //!
 //! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight
-//! (KHR_materials_transmission). Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0
-//! there is a hole. `unlit` (KHR_materials_unlit) leaves nothing but the base colour, which the surface then emits.
+//! (KHR_materials_transmission); with a `thickness` by a real body that refracts (KHR_materials_volume), rough if the surface
+//! is. Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0 there is a hole. `unlit`
+//! (KHR_materials_unlit) leaves nothing but the base colour, which the surface then emits.
+mod film;
+mod layers;
+
 use durer_core::{
     math::{Frame, Normal3, Vector3, float::sqr},
     spectrum::{Color, Spectrum},
@@ -16,10 +22,12 @@ use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, P
 
 use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
 use crate::{
-    ShadeCx, Surface,
-    bsdf::{Bsdf, Glossy, Lobe, SMOOTH, normal_reflectance},
+    Medium, ShadeCx, Surface,
+    bsdf::{Blur, Blurred, Bounced, Bsdf, Glossy, Lobe, Matte, SMOOTH, normal_reflectance},
     texture::TextureAt,
 };
+
+use layers::Layers;
 
 /// What the alpha channel means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +57,64 @@ pub struct Principled {
     normal_frame: [f32; 4],
     unlit: bool,
     one_sided: bool,
+    layers: Layers,
 }
+
+/// Parameters of the core and of the extensions.
+const PARAMS: [ParamSpec; CORE.len() + Layers::PARAMS.len()] = {
+    let mut all = [CORE[0]; CORE.len() + Layers::PARAMS.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = if i < CORE.len() { CORE[i] } else { Layers::PARAMS[i - CORE.len()] };
+        i += 1;
+    }
+    all
+};
+
+const CORE: [ParamSpec; 15] = [
+    ParamSpec::color_texture("basecolor", [1.0; 3], "Colour of the body, or of a metal's reflection.")
+        .range(0.0, f32::INFINITY),
+    ParamSpec::float_texture("alpha", 1.0, "Coverage; see alphamode.").range(0.0, 1.0),
+    ParamSpec::new(
+        "alphamode",
+        ParamType::Choice(&["opaque", "mask", "blend"]),
+        ParamDefault::Text("opaque"),
+        "Whether alpha is ignored, cuts holes, or blends with what lies behind.",
+    ),
+    ParamSpec::float("alphacutoff", 0.5, "With mask: holes are where alpha is below this.").range(0.0, 1e6),
+    ParamSpec::float_texture("metallic", 0.0, "0 dielectric, 1 metal.").range(0.0, 1.0),
+    ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.").range(0.0, 1.0),
+    ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
+    ParamSpec::float_texture("transmission", 0.0, "Share of the body that is a thin clear sheet.")
+        .range(0.0, 1.0),
+    ParamSpec::color_texture("emission", [0.0; 3], "Radiance emitted.").range(0.0, f32::INFINITY),
+    ParamSpec::float("emissionstrength", 1.0, "Factor on emission.").range(0.0, f32::INFINITY),
+    ParamSpec::new(
+        "normal",
+        ParamType::ColorTexture,
+        ParamDefault::Unset,
+        "Normal map: a linear colour texture, n = 2 c - 1.",
+    ),
+    ParamSpec::float("normalscale", 1.0, "Factor on the slope of the normal map."),
+    ParamSpec::new(
+        "normaluv",
+        ParamType::Floats,
+        ParamDefault::Unset,
+        "m0 m1 m3 m4 of the normal map's uvmatrix, where its tangents are to turn with it.",
+    ),
+    ParamSpec::new(
+        "unlit",
+        ParamType::Bool,
+        ParamDefault::Bool(false),
+        "Emit the base colour and scatter nothing: what is seen is the colour itself.",
+    ),
+    ParamSpec::new(
+        "onesided",
+        ParamType::Bool,
+        ParamDefault::Bool(false),
+        "Not seen from behind (glTF without doubleSided); it casts its shadow all the same.",
+    ),
+];
 
 impl Kind for Principled {
     type Output = Box<dyn Material>;
@@ -57,56 +122,7 @@ impl Kind for Principled {
         name: "principled",
         aliases: &[],
         doc: "The metallic-roughness material of glTF 2.0.",
-        params: &[
-            ParamSpec::color_texture(
-                "basecolor",
-                [1.0; 3],
-                "Colour of the body, or of a metal's reflection.",
-            )
-            .range(0.0, f32::INFINITY),
-            ParamSpec::float_texture("alpha", 1.0, "Coverage; see alphamode.").range(0.0, 1.0),
-            ParamSpec::new(
-                "alphamode",
-                ParamType::Choice(&["opaque", "mask", "blend"]),
-                ParamDefault::Text("opaque"),
-                "Whether alpha is ignored, cuts holes, or blends with what lies behind.",
-            ),
-            ParamSpec::float("alphacutoff", 0.5, "With mask: holes are where alpha is below this.")
-                .range(0.0, 1e6),
-            ParamSpec::float_texture("metallic", 0.0, "0 dielectric, 1 metal.").range(0.0, 1.0),
-            ParamSpec::float_texture("roughness", 0.5, "0 mirror, 1 dull; GGX alpha is its square.")
-                .range(0.0, 1.0),
-            ParamSpec::float("eta", 1.5, "Index of refraction of the dielectric part.").range(0.0, 10.0),
-            ParamSpec::float_texture("transmission", 0.0, "Share of the body that is a thin clear sheet.")
-                .range(0.0, 1.0),
-            ParamSpec::color_texture("emission", [0.0; 3], "Radiance emitted.").range(0.0, f32::INFINITY),
-            ParamSpec::float("emissionstrength", 1.0, "Factor on emission.").range(0.0, f32::INFINITY),
-            ParamSpec::new(
-                "normal",
-                ParamType::ColorTexture,
-                ParamDefault::Unset,
-                "Normal map: a linear colour texture, n = 2 c - 1.",
-            ),
-            ParamSpec::float("normalscale", 1.0, "Factor on the slope of the normal map."),
-            ParamSpec::new(
-                "normaluv",
-                ParamType::Floats,
-                ParamDefault::Unset,
-                "m0 m1 m3 m4 of the normal map's uvmatrix, where its tangents are to turn with it.",
-            ),
-            ParamSpec::new(
-                "unlit",
-                ParamType::Bool,
-                ParamDefault::Bool(false),
-                "Emit the base colour and scatter nothing: what is seen is the colour itself.",
-            ),
-            ParamSpec::new(
-                "onesided",
-                ParamType::Bool,
-                ParamDefault::Bool(false),
-                "Not seen from behind (glTF without doubleSided); it casts its shadow all the same.",
-            ),
-        ],
+        params: &PARAMS,
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let mode = match args.text("alphamode") {
@@ -128,6 +144,7 @@ impl Kind for Principled {
             normal,
             normal_scale: args.float("normalscale"),
             normal_frame: normal_frame(args),
+            layers: Layers::read(args),
             unlit: args.bool("unlit"),
             one_sided: args.bool("onesided"),
         }))
@@ -176,6 +193,56 @@ impl Principled {
     }
 }
 
+impl Principled {
+    /// The lobes of a surface whose normal is settled.
+    fn lit(&self, cx: &ShadeCx<'_>, surface: &Surface, wo: Vector3) -> Bsdf {
+        let at = surface.texture_at();
+        let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
+        let (base, coverage) = (self.base(cx, &at), self.coverage(cx, &at));
+        let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
+        let facets = self.layers.facets(cx, surface, sqr(unit(self.roughness)));
+
+        let local_wo = Frame::from_z(surface.n_s).to_local(wo);
+        let mut on_top = Bsdf::default();
+        let below_top = self.layers.on_top((cx, &at), (local_wo, coverage), &mut on_top);
+        // What enters a real body does so through an interface of its own, beside the opaque rest.
+        let entering = if self.layers.body.is_some() { transmission * (1.0 - metallic) } else { 0.0 };
+        let (sheet, there) = match self.layers.body {
+            Some(_) => (0.0, coverage * (1.0 - entering) * below_top),
+            None => (transmission, coverage * below_top),
+        };
+        let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
+        let (of_dielectric, reflectance) =
+            self.layers.reflectance((cx, &at), (dielectric_f0, base, metallic), local_wo.z.abs().min(1.0));
+        let dielectric = Glossy { reflectance: of_dielectric, facets, scale: there };
+        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
+        let body = base * below * ((1.0 - metallic) * there);
+        let passing = body * sheet + Spectrum::splat(1.0 - coverage);
+        let (shine, shine_color) = self.layers.shine(cx, &at);
+        let mut bsdf = Bsdf::default()
+            .with(Lobe::Diffuse { albedo: body * ((1.0 - sheet) * (1.0 - shine)) })
+            .with(Lobe::Glossy(Glossy { reflectance, ..dielectric }))
+            .with(Lobe::PassThrough { weight: passing });
+        if shine > 0.0 {
+            let dimmed = below * ((1.0 - metallic) * there * (1.0 - sheet) * shine);
+            bsdf.add(Lobe::Behind { albedo: shine_color * dimmed });
+        }
+        if entering > 0.0 {
+            let interface = Layers::boundary(self.eta, base, entering * coverage * below_top);
+            bsdf.add(match facets.is_smooth() {
+                true => Lobe::Interface(interface),
+                false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
+            });
+        }
+        if self.layers.compensates
+            && let Some(lost) = Bounced::of(&reflectance, &facets)
+        {
+            bsdf.add(Lobe::Matte(Matte::Bounced(lost)).scaled(there));
+        }
+        on_top.lobes().fold(bsdf, |bsdf, lobe| bsdf.with(*lobe))
+    }
+}
+
 impl Material for Principled {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
@@ -186,27 +253,7 @@ impl Material for Principled {
             let passing = Spectrum::splat(1.0 - self.coverage(cx, &at));
             return Bsdf::default().with(Lobe::PassThrough { weight: passing });
         }
-        let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
-        let (base, coverage) = (self.base(cx, &at), self.coverage(cx, &at));
-        let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
-
-        let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
-        let dielectric = Glossy {
-            f0: dielectric_f0,
-            f90: Spectrum::ONE,
-            alpha: sqr(unit(self.roughness)),
-            scale: coverage,
-        };
-        let local_wo = Frame::from_z(surface.n_s).to_local(wo);
-        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
-        let body = base * below * ((1.0 - metallic) * coverage);
-
-        let f0 = dielectric_f0 * (1.0 - metallic) + base * metallic;
-        let passing = body * transmission + Spectrum::splat(1.0 - coverage);
-        Bsdf::default()
-            .with(Lobe::Diffuse { albedo: body * (1.0 - transmission) })
-            .with(Lobe::Glossy(Glossy { f0, ..dielectric }))
-            .with(Lobe::PassThrough { weight: passing })
+        self.lit(cx, surface, wo)
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let coverage = self.coverage(cx, at);
@@ -219,6 +266,9 @@ impl Material for Principled {
     /// Colours of vertices are taken to be at most 1. What passes, or is mirrored, is followed; at grazing angles that is
     /// everything.
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
+        if !self.layers.are_plain() {
+            return Sent::UNBOUNDED;
+        }
         let alpha = match self.roughness {
             FloatInput::Constant(roughness) => Some(sqr(roughness.clamp(0.0, 1.0))),
             FloatInput::Texture(_) => None,
@@ -251,9 +301,13 @@ impl Material for Principled {
         }
     }
     fn is_passed(&self) -> bool {
-        self.mode == AlphaMode::Blend || self.transmission != FloatInput::Constant(0.0)
+        let is_sheet = self.layers.body.is_none() && self.transmission != FloatInput::Constant(0.0);
+        self.mode == AlphaMode::Blend || is_sheet
     }
     fn is_one_sided(&self) -> bool {
         self.one_sided
+    }
+    fn medium(&self) -> Option<Medium> {
+        self.layers.body.filter(|_| self.transmission != FloatInput::Constant(0.0))
     }
 }

@@ -1,0 +1,103 @@
+//! What broad lobes add to others: fibres on top (sheen), and the light that bounces several times between facets.
+//!
+//! **Sheen** (KHR_materials_sheen): `f = c D V` with `D = (2 + 1/a) sin^(1/a) h / (2 pi)` (Estevez and Kulla 2017,
+//! "Production Friendly Microfacet Sheen BRDF") and `V = 1 / (4 (c_o + c_i - c_o c_i))` (Neubelt and Pettineo 2013).
+//! **Compensation** (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks"): with `E` the share of white
+//! facets after one bounce, `f = F (1 - E(o)) (1 - E(i)) / (pi (1 - <E>))`, where `F` is what is left of light that bounces
+//! more than once. White facets then lose nothing (validation.md E3).
+use std::f32::consts::{FRAC_1_PI, PI};
+
+use durer_core::{
+    math::{
+        Point2, Vector3,
+        float::{pow, sqr},
+    },
+    sampling::cosine_hemisphere,
+    spectrum::Spectrum,
+};
+
+use super::{Facets, Reflectance, glossy::single_scattered};
+
+/// Points of the integrals over cosines.
+const STEPS: usize = 12;
+
+/// Fibres that stand on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheen {
+    /// Their colour, in `[0, 1]`.
+    pub color: Spectrum,
+    /// Width of the distribution, in `(0, 1]`.
+    pub alpha: f32,
+    /// Share that white fibres reflect of a uniform sky towards the viewer: what they hide of what is below.
+    pub hidden: f32,
+}
+
+impl Sheen {
+    /// Least width.
+    const LEAST: f32 = 1e-2;
+
+    /// Fibres of this colour and width, seen from `wo`.
+    pub fn new(color: Spectrum, alpha: f32, wo: Vector3) -> Self {
+        let mut sheen = Self { color, alpha: alpha.max(Self::LEAST), hidden: 0.0 };
+        // Directions drawn by the cosine: the mean of pi f.
+        let place = |i: usize| (i as f32 + 0.5) / STEPS as f32;
+        let up = if wo.z < 0.0 { -wo } else { wo };
+        let mut sum = 0.0;
+        for x in 0..STEPS {
+            for y in 0..STEPS {
+                sum += PI * sheen.factor(up, cosine_hemisphere(Point2::new(place(x), place(y))));
+            }
+        }
+        sheen.hidden = (sum / (STEPS * STEPS) as f32).min(1.0);
+        sheen
+    }
+    fn factor(&self, o: Vector3, i: Vector3) -> f32 {
+        let h = (o + i).normalize();
+        let sin2 = sqr(h.x) + sqr(h.y);
+        let power = 1.0 / self.alpha;
+        let d = if sin2 > 0.0 { (2.0 + power) * pow(sin2.min(1.0), 0.5 * power) / (2.0 * PI) } else { 0.0 };
+        d / (4.0 * (o.z.abs() + i.z.abs() - o.z.abs() * i.z.abs())).max(1e-6)
+    }
+    pub(super) fn eval(&self, o: Vector3, i: Vector3) -> Spectrum {
+        self.color * self.factor(o, i)
+    }
+}
+
+/// Light that bounces between facets more than once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounced {
+    color: Spectrum,
+    alpha: f32,
+    /// `1 - <E>`.
+    lost: f32,
+}
+
+impl Bounced {
+    /// What is missing from a lobe of these facets, as far as the table of `E` tells; none for smooth ones.
+    pub fn of(reflectance: &Reflectance, facets: &Facets) -> Option<Self> {
+        if facets.is_smooth() {
+            return None;
+        }
+        let alpha = facets.alpha();
+        // 2 integral of f(cos) cos dcos.
+        let cos = |i: usize| ((i as f32 + 0.5) / STEPS as f32).sqrt();
+        let mean = (0..STEPS).map(|i| single_scattered(cos(i), alpha)).sum::<f32>() / STEPS as f32;
+        let fresnel = (0..STEPS).fold(Spectrum::BLACK, |sum, i| sum + reflectance.at(cos(i))) / STEPS as f32;
+        let lost = (1.0 - mean).max(1e-6);
+        let color = fresnel.map(|f| sqr(f) * mean / (1.0 - f * lost).max(1e-6));
+        Some(Self { color, alpha, lost })
+    }
+    pub(super) fn eval(&self, o: Vector3, i: Vector3) -> Spectrum {
+        let lost = |w: Vector3| (1.0 - single_scattered(w.z.abs().min(1.0), self.alpha)).max(0.0);
+        self.color * (FRAC_1_PI * lost(o) * lost(i) / self.lost)
+    }
+    pub(super) fn directional_albedo(&self, wo: Vector3) -> Spectrum {
+        self.color * (1.0 - single_scattered(wo.z.abs().min(1.0), self.alpha)).max(0.0)
+    }
+    pub(super) fn albedo(&self) -> Spectrum {
+        self.color * self.lost
+    }
+    pub(super) fn scaled(self, by: f32) -> Self {
+        Self { color: self.color * by, ..self }
+    }
+}

@@ -1,0 +1,116 @@
+//! How rough a surface is: the widths of its GGX microfacets along two directions.
+//!
+//! With equal widths the formulas are those of `ggx.rs`; else `D = 1 / (pi a_x a_y (x²/a_x² + y²/a_y² + z²)²)` and
+//! `sqrt(a_x² x² + a_y² y² + z²)` for the root in Smith's terms (Heitz 2014, "Understanding the Masking-Shadowing Function
+//! in Microfacet-Based BRDFs").
+use std::f32::consts::PI;
+
+use durer_core::math::{
+    Point2, Vector3,
+    float::{cos, sin, sqr},
+};
+
+use super::{SMOOTH, ggx};
+
+/// Least width of facets that are not smooth: below it floats lose the lobe.
+const LEAST: f32 = 1e-4;
+
+/// GGX microfacets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facets {
+    /// Width along the tangent, in `[0, 1]`.
+    pub x: f32,
+    /// Width across it, in `[0, 1]`.
+    pub y: f32,
+    /// The tangent in the frame of the lobes: its x and y, of unit length.
+    pub tangent: [f32; 2],
+}
+
+impl Facets {
+    /// The same in all directions.
+    pub const fn round(alpha: f32) -> Self {
+        Self { x: alpha, y: alpha, tangent: [1.0, 0.0] }
+    }
+    /// Of two widths, along and across a direction of the surface given in the frame of the lobes.
+    pub fn along(tangent: Vector3, x: f32, y: f32) -> Self {
+        let length = (sqr(tangent.x) + sqr(tangent.y)).sqrt();
+        if x == y || length.is_nan() || length <= 0.0 || x.max(y) < SMOOTH {
+            return Self { x, y, tangent: [1.0, 0.0] };
+        }
+        Self { x: x.max(LEAST), y: y.max(LEAST), tangent: [tangent.x / length, tangent.y / length] }
+    }
+    /// Whether they are so flat that light is reflected sharply.
+    pub fn is_smooth(&self) -> bool {
+        self.x.max(self.y) < SMOOTH
+    }
+    /// One width that stands for both: their geometric mean.
+    pub fn alpha(&self) -> f32 {
+        if self.x == self.y { self.x } else { (self.x * self.y).sqrt() }
+    }
+    /// With both widths changed.
+    #[must_use]
+    pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
+        Self { x: f(self.x), y: f(self.y), ..self }
+    }
+    fn is_round(&self) -> bool {
+        self.x == self.y
+    }
+    /// A direction in the frame of the tangent.
+    fn turned(&self, w: Vector3) -> Vector3 {
+        let [c, s] = self.tangent;
+        Vector3::new(c * w.x + s * w.y, c * w.y - s * w.x, w.z)
+    }
+    fn turned_back(&self, w: Vector3) -> Vector3 {
+        let [c, s] = self.tangent;
+        Vector3::new(c * w.x - s * w.y, c * w.y + s * w.x, w.z)
+    }
+    /// `sqrt(a_x² x² + a_y² y² + z²)`.
+    fn root(&self, w: Vector3) -> f32 {
+        let w = self.turned(w);
+        (sqr(self.x * w.x) + sqr(self.y * w.y) + sqr(w.z)).sqrt()
+    }
+    /// Density of microfacet normals at the unit vector `h`; 1/sr.
+    pub(super) fn distribution(&self, h: Vector3) -> f32 {
+        if self.is_round() {
+            return ggx::distribution(h, self.x);
+        }
+        let h = self.turned(h);
+        let q = sqr(h.x / self.x) + sqr(h.y / self.y) + sqr(h.z);
+        1.0 / (PI * self.x * self.y * sqr(q))
+    }
+    /// Shadowing and masking divided by four cosines, which are given as well: above 0.
+    pub(super) fn visibility(&self, (o, cos_o): (Vector3, f32), (i, cos_i): (Vector3, f32)) -> f32 {
+        if self.is_round() {
+            return ggx::visibility(cos_o, cos_i, self.x);
+        }
+        0.5 / (cos_i * self.root(o) + cos_o * self.root(i))
+    }
+    /// Smith's masking of a direction with z above 0: the share of microfacets seen from it.
+    pub(super) fn masking(&self, o: Vector3) -> f32 {
+        if self.is_round() {
+            return ggx::masking(o.z, self.x);
+        }
+        2.0 * o.z / (o.z + self.root(o))
+    }
+    /// `G2 / G1(o)`, of directions with z above 0 and any z: the share of the facets seen from `o` that `i` sees too.
+    pub(super) fn seen_by_both(&self, o: Vector3, i: Vector3) -> f32 {
+        let (co, ci) = (o.z, i.z.abs());
+        4.0 * co * ci * self.visibility((o, co), (i, ci)) / self.masking(o)
+    }
+    /// Density of the normals that [`Facets::visible_normal`] draws, 1/sr: `D G1(wo) (wo . h) / cos_o`.
+    pub(super) fn visible_density(&self, o: Vector3, h: Vector3) -> f32 {
+        self.masking(o) * o.dot(h).max(0.0) * self.distribution(h) / o.z
+    }
+    /// The microfacet normal seen from `o` (z above 0) at a point of the unit square: see [`ggx::visible_normal`].
+    pub(super) fn visible_normal(&self, o: Vector3, u: Point2) -> Vector3 {
+        if self.is_round() {
+            return ggx::visible_normal(o, self.x, u);
+        }
+        let stretched = |v: Vector3| Vector3::new(self.x * v.x, self.y * v.y, v.z).normalize();
+        let o = stretched(self.turned(o));
+        let z = 1.0 - u.y * (1.0 + o.z);
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        let phi = 2.0 * PI * u.x;
+        self.turned_back(stretched(Vector3::new(r * cos(phi), r * sin(phi), z) + o))
+    }
+}

@@ -1,0 +1,101 @@
+//! Metal under a clear coat: lacquered brass, car paint without its flakes. pbrt-v4's model of two layers.
+use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_scene::{Args, Kind, Schema};
+
+use super::{
+    Material,
+    coateddiffuse::Layers,
+    conductor::{self, Metal, reflecting},
+    detail::Detail,
+    roughness::{self, Roughness},
+};
+use crate::{
+    ShadeCx, Surface,
+    bsdf::{Bsdf, Layered, Lobe, Reflectance, mirrored_by_layers},
+};
+
+/// A metal under a coat.
+#[derive(Debug)]
+pub struct CoatedConductor {
+    metal: Metal,
+    metal_roughness: Roughness,
+    coat_roughness: Roughness,
+    layers: Layers,
+    detail: Detail,
+}
+
+const METAL: conductor::Words = conductor::Words { eta: "conductor.eta", k: "conductor.k" };
+const METAL_ROUGHNESS: roughness::Words =
+    roughness::Words { both: "conductor.roughness", u: "conductor.uroughness", v: "conductor.vroughness" };
+const COAT_ROUGHNESS: roughness::Words =
+    roughness::Words { both: "interface.roughness", u: "interface.uroughness", v: "interface.vroughness" };
+
+impl Kind for CoatedConductor {
+    type Output = Box<dyn Material>;
+    const SCHEMA: Schema = Schema {
+        name: "coatedconductor",
+        aliases: &[],
+        doc: "Metal under a clear coat, each smooth or rough; the same from both sides.",
+        params: &[
+            METAL.eta(),
+            METAL.k(),
+            Metal::REFLECTANCE,
+            METAL_ROUGHNESS.both(),
+            METAL_ROUGHNESS.u(),
+            METAL_ROUGHNESS.v(),
+            Layers::eta("interface.eta"),
+            COAT_ROUGHNESS.both(),
+            COAT_ROUGHNESS.u(),
+            COAT_ROUGHNESS.v(),
+            Roughness::REMAP,
+            Layers::THICKNESS,
+            Layers::ALBEDO,
+            Layers::G,
+            Layers::MAX_DEPTH,
+            Layers::SAMPLES,
+            Detail::DISPLACEMENT,
+            Detail::NORMAL_MAP,
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        let layers = Layers::read(args, "interface.eta");
+        Some(Box::new(Self {
+            metal: Metal::read(args, METAL, layers.eta),
+            metal_roughness: Roughness::read_as(args, METAL_ROUGHNESS),
+            coat_roughness: Roughness::read_as(args, COAT_ROUGHNESS),
+            layers,
+            detail: Detail::read(args),
+        }))
+    }
+}
+
+impl Material for CoatedConductor {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.detail.tilt(cx, surface, wo);
+        let metal = self.metal.at(cx, &surface.texture_at());
+        let (coat, below) =
+            (self.coat_roughness.facets(cx, surface), self.metal_roughness.facets(cx, surface));
+        let cos = surface.n_s.dot(wo).abs().min(1.0);
+        let Layers { eta, thickness, bounces, walks } = self.layers;
+        if coat.is_smooth() && below.is_smooth() {
+            let weight = mirrored_by_layers(cos, eta, thickness, metal, bounces);
+            return Bsdf::default().with(Lobe::Mirror { weight });
+        }
+        let (metal_eta, metal_k) = match metal {
+            Reflectance::Index { eta, k } => (eta, k),
+            Reflectance::Schlick { .. } => (Spectrum::ONE, Spectrum::BLACK),
+        };
+        let layered = Layered {
+            eta,
+            coat,
+            thickness,
+            metal_eta,
+            metal_k,
+            metal: below,
+            bounces: bounces as u16,
+            walks: walks as u16,
+            scale: 1.0,
+        };
+        Bsdf::default().with(Lobe::Layered(layered)).with(reflecting(Reflectance::dielectric(eta), coat, cos))
+    }
+}

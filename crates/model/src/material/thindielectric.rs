@@ -1,0 +1,54 @@
+//! A thin pane: two parallel interfaces so close that light which passes goes straight on, however often it bounced between
+//! them. With `R` the share that one interface reflects, `R' = R + T² R / (1 - R²) = 2 R / (1 + R)` (validation.md I10).
+use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+
+use super::{Material, detail::Detail};
+use crate::{
+    ShadeCx, Surface,
+    bsdf::{Bsdf, Lobe, fresnel_dielectric},
+};
+
+/// A pane.
+#[derive(Debug)]
+pub struct ThinDielectric {
+    eta: f32,
+    detail: Detail,
+}
+
+impl Kind for ThinDielectric {
+    type Output = Box<dyn Material>;
+    const SCHEMA: Schema = Schema {
+        name: "thindielectric",
+        aliases: &[],
+        doc: "A thin pane of glass: reflects, and lets the rest pass straight on.",
+        params: &[
+            ParamSpec::new(
+                "eta",
+                ParamType::Index,
+                ParamDefault::Float(1.5),
+                "Index of refraction of the pane, relative to what is on both sides of it.",
+            )
+            .range(0.1, 10.0),
+            Detail::DISPLACEMENT,
+            Detail::NORMAL_MAP,
+        ],
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        Some(Box::new(Self { eta: args.index("eta"), detail: Detail::read(args) }))
+    }
+}
+
+impl Material for ThinDielectric {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.detail.tilt(cx, surface, wo);
+        let once = fresnel_dielectric(surface.n_s.dot(wo).abs().min(1.0), self.eta);
+        let all = 2.0 * once / (1.0 + once);
+        Bsdf::default()
+            .with(Lobe::Mirror { weight: Spectrum::splat(all) })
+            .with(Lobe::PassThrough { weight: Spectrum::splat(1.0 - all) })
+    }
+    fn is_passed(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,137 @@
+//! One of every lobe, and more where it has several ways. A lobe that is missing here does not compile: see `number`.
+use durer_core::math::Vector3;
+use durer_core::spectrum::Spectrum;
+use durer_model::bsdf::{
+    Blur, Blurred, Bounced, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
+    Reflectance, Sheen, Split,
+};
+
+/// Grey of a value.
+fn grey(v: f32) -> Spectrum {
+    Spectrum::splat(v)
+}
+
+/// Facets of different widths along a direction that is no axis.
+pub(super) fn brushed(x: f32, y: f32) -> Facets {
+    Facets::along(Vector3::new(0.6, 0.8, 0.0), x, y)
+}
+
+/// Rough reflection that loses nothing but what bounces twice.
+pub(super) fn glossy(facets: Facets) -> Lobe {
+    let reflectance = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
+}
+
+/// Rough metal.
+pub(super) fn metal(facets: Facets) -> Lobe {
+    let reflectance = Reflectance::Index { eta: grey(0.2), k: grey(3.0) };
+    Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
+}
+
+/// Frosted glass.
+pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe {
+    Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(facets) })
+}
+
+/// A matte body of this albedo below a coat of this roughness, walks of `bounces`.
+pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
+    let coat = Coat::new(1.5, 0.01, Some(alpha));
+    Lobe::Matte(Matte::Coated(coat.body(grey(albedo), &Facets::round(alpha), bounces, 1.0)))
+}
+
+/// Metal below a coat.
+pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
+    Lobe::Layered(Layered {
+        eta: 1.5,
+        coat,
+        thickness: 0.01,
+        metal_eta: grey(0.2),
+        metal_k: grey(2.0),
+        metal,
+        bounces: 5,
+        walks: 1,
+        scale: 1.0,
+    })
+}
+
+/// What white facets of this width lose.
+pub(super) fn bounced(alpha: f32) -> Lobe {
+    let white = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    let lost = Bounced::of(&white, &Facets::round(alpha)).expect("rough facets");
+    Lobe::Matte(Matte::Bounced(lost))
+}
+
+/// Lobes that spread, wide enough for the cells of a histogram.
+pub(super) fn spread() -> Vec<Lobe> {
+    let round = Facets::round;
+    let split = Split::Constant { reflection: grey(0.3), transmission: grey(0.6) };
+    let blur = Blur::Cosine { reflection: 5.0, transmission: 20.0 };
+    let phong = |exponent, half| Lobe::Phong(Phong { specular: grey(1.0), exponent, half });
+    vec![
+        Lobe::Diffuse { albedo: Spectrum::ONE },
+        Lobe::Behind { albedo: Spectrum::ONE },
+        Lobe::Highlight(Highlight { specular: grey(0.4), exponent: 12.0 }),
+        Lobe::Gloss(Gloss { weight: Spectrum::ONE, exponent: 12.0 }),
+        Lobe::Blurred(Blurred { interface: Interface { eta: 1.5, split }, blur }),
+        glossy(round(0.2)),
+        glossy(brushed(0.6, 0.2)),
+        metal(round(0.3)),
+        metal(brushed(0.2, 0.9)),
+        frosted(1.5, round(0.4)),
+        frosted(1.0 / 1.33, brushed(0.25, 0.6)),
+        Lobe::Matte(Matte::rough(Spectrum::ONE, 1.0)),
+        Lobe::Matte(Matte::rough(grey(0.5), 0.4)),
+        coated(1.0, 0.0, 5),
+        Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.5, Vector3::new(0.6, 0.0, 0.8)))),
+        Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.05, Vector3::new(0.6, 0.0, 0.8)))),
+        bounced(0.8),
+        coated(0.8, 0.4, 5),
+        phong(1.0, false),
+        phong(40.0, false),
+        phong(60.0, true),
+        layered(round(0.3), round(0.2)),
+        layered(round(0.0), brushed(0.3, 0.15)),
+        layered(brushed(0.2, 0.4), round(0.0)),
+    ]
+}
+
+/// Lobes that do not.
+pub(super) fn sharp() -> Vec<Lobe> {
+    vec![
+        Lobe::Ambient { coefficient: Spectrum::ONE },
+        Lobe::Mirror { weight: grey(0.9) },
+        Lobe::Interface(Interface::clear(1.5)),
+        Lobe::PassThrough { weight: grey(0.5) },
+        glossy(Facets::round(0.0)),
+    ]
+}
+
+/// The place of a lobe among its kinds.
+fn number(lobe: &Lobe) -> usize {
+    match lobe {
+        Lobe::Diffuse { .. } => 0,
+        Lobe::Ambient { .. } => 1,
+        Lobe::Highlight(_) => 2,
+        Lobe::Glossy(_) => 3,
+        Lobe::Mirror { .. } => 4,
+        Lobe::Interface(_) => 5,
+        Lobe::Gloss(_) => 6,
+        Lobe::Blurred(_) => 7,
+        Lobe::Matte(Matte::Rough { .. }) => 8,
+        Lobe::Matte(Matte::Coated(_)) => 9,
+        Lobe::Behind { .. } => 10,
+        Lobe::Phong(_) => 11,
+        Lobe::Layered(_) => 12,
+        Lobe::PassThrough { .. } => 13,
+        Lobe::Matte(Matte::Sheen(_)) => 14,
+        Lobe::Matte(Matte::Bounced(_)) => 15,
+    }
+}
+
+#[test]
+fn every_kind_of_lobe_is_here() {
+    let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
+    here.sort_unstable();
+    here.dedup();
+    assert_eq!(here, (0..16).collect::<Vec<_>>());
+}
