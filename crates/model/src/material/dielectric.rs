@@ -5,7 +5,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 use super::{Arriving, Material, Sent, detail::Detail, roughness::Roughness};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe},
+    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe, SMOOTH},
 };
 
 /// An interface; the outside is where the normal points.

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Glossy, Lobe, Reflectance},
+    bsdf::{Bsdf, Glossy, Lobe, Reflectance, SMOOTH},
 };
 
 /// A mirror, the same from both sides and under all angles.

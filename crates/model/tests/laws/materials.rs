@@ -1,13 +1,16 @@
 //! Every registered material, with its defaults and with parameters that stretch it: no more leaves than arrives.
 use durer_core::{
     math::{Normal3, Point2, Point3, Vector3},
-    spectrum::Basis,
+    spectrum::{Basis, Color},
 };
 use durer_model::{
     ShadeCx, Surface,
     material::{MATERIALS, Material},
+    texture::{Texture, TextureAt},
 };
-use durer_scene::{Args, Data, Diagnostics, NamedNode, Node, ParamType, Params, ValueType, find};
+use durer_scene::{
+    Args, Data, Diagnostics, NamedNode, Node, ParamType, Params, TextureDesc, TextureValue, ValueType, find,
+};
 use durer_testkit::random::Random;
 
 use super::{sampling::energy, seen_from, slow};
@@ -177,4 +180,43 @@ fn mixtures_name_only_what_comes_before_them() {
     let names = Data::Strings(vec!["first".into(), "second".into()]);
     let own = Node::new("mix", Params::new().with("materials", ValueType::String, names));
     assert!(mixture(own, Node::new("diffuse", Params::new()), 0.5).is_none());
+}
+
+/// Heights that rise along u, and along v twice as fast, to 3 cm per unit.
+#[derive(Debug)]
+struct Slope;
+
+impl Texture for Slope {
+    fn largest(&self, _: &ShadeCx<'_>) -> f32 {
+        f32::INFINITY
+    }
+    fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
+        Color::gray(self.float(cx, at))
+    }
+    fn float(&self, _: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        0.03 * (at.uv.x + 2.0 * at.uv.y)
+    }
+}
+
+#[test]
+fn bumps_tilt_the_normal_against_the_slope() {
+    let desc = TextureDesc {
+        name: "slope".into(),
+        value: TextureValue::Float,
+        node: Node::new("constant", Params::new()),
+    };
+    let node = Node::new("diffuse", Params::new().texture("displacement", "slope"));
+    let mut diagnostics = Diagnostics::default();
+    let entry = find(MATERIALS, "material", &node, &mut diagnostics).expect("a registered material");
+    let descs = [desc];
+    let mut args = Args::check(&node, entry.schema, &descs, &mut diagnostics);
+    let material = (entry.build)(&mut args).expect("sound");
+    let textures: [Box<dyn Texture>; 1] = [Box::new(Slope)];
+    let cx = ShadeCx { textures: &textures, ..CX };
+    let mut surface =
+        Surface { dpdu: Vector3::new(0.1, 0.0, 0.0), dpdv: Vector3::new(0.0, 0.2, 0.0), ..place() };
+    material.bsdf(&cx, &mut surface, Vector3::new(0.0, 0.0, 1.0));
+    // The surface rises by 0.3 along x and along y.
+    let expected = Normal3::new(-0.3, -0.3, 1.0).normalize();
+    assert!((surface.n_s - expected).length() < 1e-3, "{:?}", surface.n_s);
 }
