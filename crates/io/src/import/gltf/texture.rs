@@ -151,10 +151,15 @@ impl<'b, 'a> Textures<'b, 'a> {
         if u != v {
             params = params.string("wrapv", v);
         }
-        Ok(if sampler.index_or("magFilter", 9729)? == 9728 {
-            params.string("filter", "point")
-        } else {
-            params
+        // What is chosen for texels that are wide in the picture counts; then whether there are smaller copies.
+        let filter = match (sampler.index_or("magFilter", 9729)?, sampler.index_or("minFilter", 9729)?) {
+            (9728, _) => Some("point"),
+            (_, 9984..=9987) => Some("trilinear"),
+            _ => None,
+        };
+        Ok(match filter {
+            Some(word) => params.string("filter", word),
+            None => params,
         })
     }
 
