@@ -43,9 +43,9 @@ fn rows(picture: &durer::Rendered, first: usize, count: usize) -> (f64, f64) {
 fn a_filtered_checkerboard_fades_to_grey_towards_the_horizon_g8() {
     let (soft, sharp) = (albedo(&board("\"string filter\" \"tent\"")), albedo(&board("")));
     // Four rows each, from 2 m away to the horizon.
-    let variances: Vec<f64> = [56, 34, 24, 10, 4, 0].into_iter().map(|row| rows(&soft, row, 4).1).collect();
+    let variances: Vec<f64> = [56, 16, 10, 4, 0].into_iter().map(|row| rows(&soft, row, 4).1).collect();
     assert!(variances.windows(2).all(|w| w[1] < w[0]), "{variances:?}");
-    assert!(variances[0] > 0.2 && variances[5] < 1e-3, "{variances:?}");
+    assert!(variances[0] > 0.2 && variances[4] < 1e-3, "{variances:?}");
     let (mean, variance) = rows(&soft, 0, 2);
     assert!((mean - 0.5).abs() < 2e-3 && variance < 1e-4, "{mean} {variance}");
     for row in [40, 10, 2, 0] {
@@ -103,7 +103,7 @@ fn textures_have_a_space_of_their_own() {
     assert_eq!(here, there);
     let turned = seen(&text("Rotate 45 0 0 1 Translate 0 0 0.5", [0, 0, 0], [0, 0, 4]));
     assert_ne!(here, turned);
-    let large = seen(&text("Scale 100 100 100", [1, 1, 0], [0, 0, 4]));
+    let large = seen(&text("Scale 100 100 100", [50, 50, 0], [0, 0, 4]));
     assert!(large.iter().all(|&p| p == large[0]), "one cube fills the picture");
 }
 
@@ -116,14 +116,16 @@ fn filtering_lowers_the_variance_and_keeps_the_mean() {
             integrator: Some("cast".into()),
             show: Some(Show::Albedo),
             samples: Some(4),
-            seed: Some(seed),
+            seed,
             ..Options::default()
         };
         render(&scene(&board(&format!("\"string filter\" \"{filter}\"")), &options))
     };
     let spread = |filter: &str| {
         let (a, b) = (mean(filter, 1), mean(filter, 2));
-        let pairs = a.film.pixels()[70 * 256..128 * 256].iter().zip(&b.film.pixels()[70 * 256..128 * 256]);
+        let (a, b) = (a.film.pixels(), b.film.pixels());
+        let below = 70 * 256..128 * 256;
+        let pairs = a[below.clone()].iter().zip(&b[below]);
         let (mut sum, mut squares) = (0.0, 0.0);
         let mut count = 0.0f64;
         for (a, b) in pairs {
