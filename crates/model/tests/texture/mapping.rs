@@ -91,8 +91,7 @@ fn derivatives_of_mappings_are_difference_quotients() {
             let (before, after) = (moved(-1.0), moved(1.0));
             let slope: [f32; 2] = std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * e));
             let width = |axis: usize| read_off(mapping, &m, (p, step), axis);
-            for axis in 0..2 {
-                let expected = slope[axis].abs();
+            for (axis, expected) in slope.map(f32::abs).into_iter().enumerate() {
                 assert!((width(axis) - expected).abs() < 2e-3 + 0.01 * expected, "{mapping} {axis}");
             }
         }
