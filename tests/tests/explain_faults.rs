@@ -7,6 +7,7 @@ use durer::{
     explain::{Explanation, Law, check, explain},
     integrator::{EyeSamples, Integrator, Output},
     math::Vector3,
+    model::material::GlossRays,
     probe::{Counters, RayKind, RayTree, Recorder, TreeNode},
     spectrum::Spectrum,
     tree::Subject,

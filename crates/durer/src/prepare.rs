@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use durer_accel::BuildOptions;
 use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
 use durer_io::import::Imported;
-use durer_model::{filter::Filter, material::GlossRays};
+use durer_model::filter::Filter;
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},

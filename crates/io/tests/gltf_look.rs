@@ -104,6 +104,7 @@ fn textures_carry_channel_encoding_factor_wrap_and_filter() {
     assert_eq!((word(&base, "wrap"), word(&base, "wrapv")), ("clamp".to_owned(), "mirror".to_owned()));
     assert_eq!(word(&base, "filter"), "point");
     assert_eq!(numbers(&base, "factor"), [0.5, 1.0, 1.0]);
+    assert!(texture(m, "roughness").params.get("filter").is_none(), "no sampler, no filter");
     let rough = texture(m, "roughness");
     assert_eq!((word(&rough, "channel"), word(&rough, "filename")), ("g".to_owned(), "image:1".to_owned()));
     assert_eq!(numbers(&rough, "scale"), [0.5]);
@@ -327,5 +328,24 @@ fn the_first_camera_says_what_proportions_the_picture_has() {
     assert_eq!(scene(json!(0.5)), (Some(1280), Some(2560)));
     for senseless in [0.0, -1.0, 1e9] {
         assert_eq!(scene(json!(senseless)), (None, None));
+    }
+}
+
+#[test]
+fn samplers_that_ask_for_mipmaps_get_smaller_copies() {
+    for (min, mag, expected) in [
+        (9987, 9729, Some("trilinear")),
+        (9984, 9729, Some("trilinear")),
+        (9729, 9729, None),
+        (9987, 9728, Some("point")),
+    ] {
+        let mut d = with_images(json!({"materials": [
+            {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}
+        ]}));
+        d["samplers"] = json!([{"minFilter": min, "magFilter": mag}]);
+        let desc = import_well(d, &[]).desc;
+        let filter =
+            desc.textures[0].node.params.get("filter").map(|_| word(&desc.textures[0].node, "filter"));
+        assert_eq!(filter.as_deref(), expected, "{min} {mag}");
     }
 }

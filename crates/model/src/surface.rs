@@ -1,7 +1,7 @@
 //! The place where a ray met something.
 use durer_core::math::{Frame, Normal3, Point2, Point3, Ray, Transform, Vector3, error::offset_ray_origin};
 
-use crate::texture::TextureAt;
+use crate::texture::{Footprint, TextureAt};
 
 /// A point on a surface with everything shading needs; made once per hit, lazily.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub struct Surface {
     pub dpdv: Vector3,
     /// Linear RGBA factor of the vertices; ones where a mesh has none.
     pub vertex_color: [f32; 4],
+    /// The part of the surface that a sample stands for, where textures want to know it; a point elsewhere.
+    pub footprint: Footprint,
 }
 
 impl Surface {
@@ -70,6 +72,13 @@ impl Surface {
     }
     /// Where textures are looked up.
     pub fn texture_at(&self) -> TextureAt {
-        TextureAt { uv: self.uv, second_uv: self.second_uv, p: self.p, vertex_color: self.vertex_color }
+        TextureAt {
+            uv: self.uv,
+            second_uv: self.second_uv,
+            p: self.p,
+            n: self.n_g,
+            vertex_color: self.vertex_color,
+            footprint: self.footprint,
+        }
     }
 }

@@ -40,6 +40,7 @@ fn place() -> Surface {
         dpdu: Vector3::new(2.0, 0.0, 0.0),
         dpdv: Vector3::new(0.0, 0.5, 0.0),
         vertex_color: [1.0; 4],
+        footprint: durer_model::texture::Footprint::POINT,
     }
 }
 

@@ -7,6 +7,7 @@
 pub mod compile;
 pub mod drive;
 pub mod film;
+mod footprint;
 pub mod integrator;
 mod light_sampler;
 mod media;

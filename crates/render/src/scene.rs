@@ -12,7 +12,7 @@ use durer_model::{
     light::Light,
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
-    texture::Texture,
+    texture::{Filters, Texture},
 };
 use durer_scene::Mesh;
 
@@ -76,6 +76,8 @@ pub struct Scene {
     pub material_names: Vec<String>,
     /// Textures, in the order of the description.
     pub textures: Arc<[Box<dyn Texture>]>,
+    /// What the one that wants footprints most wants of them.
+    pub(crate) filters: Filters,
     /// Names of the textures.
     pub texture_names: Vec<String>,
     /// Lights.

@@ -1,7 +1,7 @@
 //! The scene as plain data: what importers write and `compile` reads.
 use std::sync::Arc;
 
-use durer_core::{Id, math::Motion};
+use durer_core::{Id, glam::DAffine3, math::Motion};
 use serde::Serialize;
 
 use crate::{Location, Mesh, Params};
@@ -79,6 +79,8 @@ pub struct TextureDesc {
     pub value: TextureValue,
     /// Kind and parameters.
     pub node: Node,
+    /// Where its own space is, for kinds that look at points; it has an inverse.
+    pub world_from_texture: DAffine3,
 }
 
 /// A light with its placement.

@@ -18,7 +18,7 @@ pub(super) struct Memory {
     pub(super) meshes: u64,
     /// Copies of meshes that were moved to where they stand.
     pub(super) meshes_placed: u64,
-    /// Decoded images of textures and lights, a shared one once.
+    /// Decoded images of textures and lights, a shared one once, and the smaller copies that textures make of them.
     pub(super) textures: u64,
     /// What a render will sum into.
     pub(super) film: u64,
@@ -40,7 +40,7 @@ impl Memory {
             hierarchy_building: report.building_bytes,
             meshes: report.geometry.mesh_bytes,
             meshes_placed: report.placed_mesh_bytes,
-            textures,
+            textures: textures + report.texture_bytes,
             film: pixels * size_of::<Pixel>() as u64 * films,
             peak: peak(),
         }

@@ -66,6 +66,12 @@ impl Sampler {
         (possible && sampler.to_hex() == hex).then_some(sampler)
     }
 
+    /// Samples the pixel will get in all, as far as is known.
+    #[inline]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
     /// The sampler of a child ray: different numbers for every `branch` (mirror and transmitted ray, i-th of n rays).
     #[must_use]
     #[inline]

@@ -4,7 +4,7 @@ use durer_core::math::{Point2, Point3, Ray, Vector3};
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
-    Camera, Lens, Shutter,
+    Camera, Differential, Lens, Shutter,
     lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
     shutter::SHUTTER,
@@ -27,6 +27,9 @@ impl Camera for Orthographic {
     fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
         let p = self.screen.at(film);
         self.lens.ray(Point3::new(p.x, p.y, 0.0), Vector3::new(0.0, 0.0, 1.0), lens, time)
+    }
+    fn differentials(&self, _: Vector3) -> [Differential; 2] {
+        self.screen.steps().map(|o| Differential { o, d: Vector3::ZERO })
     }
     fn lens(&self) -> &Lens {
         &self.lens

@@ -7,7 +7,7 @@ use durer_core::math::{Point2, Point3, Ray, Vector3, float};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    Camera, Lens, Shutter,
+    Camera, Differential, Lens, Shutter,
     lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
     shutter::SHUTTER,
@@ -32,6 +32,14 @@ impl Camera for Perspective {
         let p = self.screen.at(film);
         let d = Vector3::new(p.x * self.half, p.y * self.half, 1.0).normalize();
         self.lens.ray(Point3::ZERO, d, lens, time)
+    }
+    /// The image plane is `1 / d.z` away along the ray; of a step on it counts what is perpendicular to the ray. Through
+    /// another point of the lens everything is the same on the plane in focus.
+    fn differentials(&self, d: Vector3) -> [Differential; 2] {
+        self.screen.steps().map(|step| {
+            let step = step * (self.half * d.z);
+            Differential { o: Vector3::ZERO, d: step - d * d.dot(step) }
+        })
     }
     fn lens(&self) -> &Lens {
         &self.lens

@@ -1,5 +1,5 @@
 //! The window of the image plane that the film shows.
-use durer_core::math::{Point2, float::lerp};
+use durer_core::math::{Point2, Vector3, float::lerp};
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
 
 /// Which side of the default window runs from -1 to 1.
@@ -76,6 +76,11 @@ impl Screen {
     /// Half the height of the window.
     pub(super) fn half_height(&self) -> f32 {
         (self.window[3] - self.window[2]).abs() * 0.5
+    }
+    /// What steps over the whole film, to the right and down, are on the image plane.
+    pub(super) fn steps(&self) -> [Vector3; 2] {
+        let [x_min, x_max, y_min, y_max] = self.window;
+        [Vector3::new(x_max - x_min, 0.0, 0.0), Vector3::new(0.0, y_min - y_max, 0.0)]
     }
     /// The point of the image plane at a film position (x right, y down, in `[0, 1]`).
     pub(super) fn at(&self, film: Point2) -> Point2 {

@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::Mesh;
 
-use crate::Surface;
+use crate::{Surface, texture::Footprint};
 
 /// Weights of the three vertices of one triangle.
 struct Weights {
@@ -75,6 +75,7 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, [u, v]: [f32; 2], time: f32) -> Surf
         dpdu,
         dpdv,
         vertex_color: weights.sum(&mesh.colors, |c| c).unwrap_or([1.0; 4]),
+        footprint: Footprint::POINT,
     }
 }
 

@@ -11,7 +11,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Geometry, Outline, Shape, ShapeHit, accept};
-use crate::Surface;
+use crate::{Surface, texture::Footprint};
 
 /// A plane through a point with axes for texture coordinates, in f64: what all flat shapes lie in.
 ///
@@ -101,6 +101,7 @@ impl Carrier {
             dpdu: Vector3::from_f64(self.u * size[0]),
             dpdv: Vector3::from_f64(self.v * size[1]),
             vertex_color: [1.0; 4],
+            footprint: Footprint::POINT,
         }
     }
 }

@@ -13,7 +13,7 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, accept, arc_angle};
-use crate::Surface;
+use crate::{Surface, texture::Footprint};
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
 /// on the z axis; the outside is away from the centre. `u = phi / phi_max`; `v` runs from 0 at `z_min` to 1 at `z_max`,
@@ -163,6 +163,7 @@ impl Shape for Sphere {
             dpdu: Vector3::new(-p.y, p.x, 0.0) * self.phi_max,
             dpdv: down * (top - bottom),
             vertex_color: [1.0; 4],
+            footprint: Footprint::POINT,
         }
     }
 

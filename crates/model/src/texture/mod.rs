@@ -3,28 +3,46 @@
 //! A new texture is one file here and one line in [`COLOR_TEXTURES`], [`FLOAT_TEXTURES`] or both: the same word takes
 //! other parameters depending on what it is to yield.
 
+mod bilerp;
 mod checkerboard;
 mod constant;
+mod directionmix;
+mod dots;
+mod fbm;
+mod footprint;
 pub(crate) mod imagemap;
 mod mapping;
+mod marble;
+mod mix;
+mod noise;
 mod scale;
 mod value;
+mod windy;
 
 use std::{cell::RefCell, fmt::Debug};
 
 use durer_core::{
-    math::{Point2, Point3},
+    glam::DAffine3,
+    math::{Normal3, Point2, Point3},
     spectrum::Color,
 };
 use durer_scene::{ColorInput, Entry, FloatInput, TextureValue};
 
 use crate::ShadeCx;
 
+pub use bilerp::Bilerp;
 pub use checkerboard::Checkerboard;
 pub use constant::Constant;
+pub use directionmix::DirectionMix;
+pub use dots::Dots;
+pub use fbm::{Fbm, Fractal, Wrinkled};
+pub use footprint::{Footprint, Habit};
 pub use imagemap::{ColorImageMap, FloatImageMap, ImageMap};
+pub use marble::Marble;
+pub use mix::Mix;
 pub use scale::Scale;
 pub use value::Value;
+pub use windy::Windy;
 
 /// Where a texture is looked up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +53,23 @@ pub struct TextureAt {
     pub second_uv: Point2,
     /// The point in render space.
     pub p: Point3,
+    /// The geometric normal there, unit.
+    pub n: Normal3,
     /// Linear RGBA factor of the mesh's vertices.
     pub vertex_color: [f32; 4],
+    /// The surroundings of the point that the look-up stands for.
+    pub footprint: Footprint,
+}
+
+/// Whether a texture averages over footprints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Filters {
+    /// It looks at points only.
+    Never,
+    /// Only where [`Habit::AsPbrt`] says so.
+    AsPbrt,
+    /// Wherever there is a footprint: a parameter asks for it.
+    Always,
 }
 
 /// A look-up of a texture.
@@ -70,36 +103,54 @@ pub trait Texture: Debug + Send + Sync {
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
     /// No component of a colour and no number of it is of larger magnitude.
     fn largest(&self, cx: &ShadeCx<'_>) -> f32;
+    /// Told once, before it is looked up, where its own space is. Placements have inverses.
+    fn place(&mut self, render_from_texture: &DAffine3) {
+        let _ = render_from_texture;
+    }
+    /// Whether it wants to know footprints; of a texture made of others, what it does with its own.
+    fn filters(&self) -> Filters {
+        Filters::Never
+    }
+    /// Heap memory in bytes, without the image as it was decoded.
+    fn bytes(&self) -> u64 {
+        0
+    }
 }
 
 /// All kinds of texture that yield colours.
 pub const COLOR_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
+    Entry::of::<Bilerp<ColorInput>>(),
     Entry::of::<Checkerboard<ColorInput>>(),
     Entry::of::<Constant<ColorInput>>(),
+    Entry::of::<DirectionMix<ColorInput>>(),
+    Entry::of::<Dots<ColorInput>>(),
+    Entry::of::<Fbm>(),
     Entry::of::<ColorImageMap>(),
+    Entry::of::<Marble>(),
+    Entry::of::<Mix<ColorInput>>(),
     Entry::of::<Scale<ColorInput>>(),
+    Entry::of::<Windy>(),
+    Entry::of::<Wrinkled>(),
 ];
 
 /// All kinds of texture that yield numbers.
 pub const FLOAT_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
+    Entry::of::<Bilerp<FloatInput>>(),
     Entry::of::<Checkerboard<FloatInput>>(),
     Entry::of::<Constant<FloatInput>>(),
+    Entry::of::<DirectionMix<FloatInput>>(),
+    Entry::of::<Dots<FloatInput>>(),
+    Entry::of::<Fbm>(),
     Entry::of::<FloatImageMap>(),
+    Entry::of::<Marble>(),
+    Entry::of::<Mix<FloatInput>>(),
     Entry::of::<Scale<FloatInput>>(),
+    Entry::of::<Windy>(),
+    Entry::of::<Wrinkled>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is used instead.
-pub const NOT_YET: &[(&str, &str)] = &[
-    ("bilerp", "constant"),
-    ("directionmix", "constant"),
-    ("dots", "constant"),
-    ("fbm", "constant"),
-    ("marble", "constant"),
-    ("mix", "constant"),
-    ("ptex", "constant"),
-    ("windy", "constant"),
-    ("wrinkled", "constant"),
-];
+pub const NOT_YET: &[(&str, &str)] = &[("ptex", "constant")];
 
 /// The register of textures that yield `value`.
 pub fn textures(value: TextureValue) -> &'static [Entry<Box<dyn Texture>>] {

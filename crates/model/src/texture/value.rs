@@ -23,6 +23,27 @@ pub trait Value: Debug + Copy + Send + Sync + 'static {
     fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
     /// As [`super::Texture::largest`].
     fn largest(self, cx: &ShadeCx<'_>) -> f32;
+
+    /// `(1 - share) a + share b` of the colours of `a` and `b`; what has no share is not looked up.
+    fn blend_colors(cx: &ShadeCx<'_>, at: &TextureAt, (a, b): (Self, Self), share: f32) -> Color {
+        if share == 0.0 {
+            return a.color(cx, at);
+        }
+        if share == 1.0 {
+            return b.color(cx, at);
+        }
+        a.color(cx, at) * (1.0 - share) + b.color(cx, at) * share
+    }
+    /// The same of numbers.
+    fn blend_floats(cx: &ShadeCx<'_>, at: &TextureAt, (a, b): (Self, Self), share: f32) -> f32 {
+        if share == 0.0 {
+            return a.float(cx, at);
+        }
+        if share == 1.0 {
+            return b.float(cx, at);
+        }
+        a.float(cx, at) * (1.0 - share) + b.float(cx, at) * share
+    }
 }
 
 impl Value for ColorInput {

@@ -3,7 +3,7 @@ use durer_model::texture::Texture;
 use durer_scene::{Data, Image, ImageData, Params, TextureValue, ValueType};
 use durer_testkit::random::Random;
 
-use super::{built, color, float, grey};
+use super::{CX, built, color, float, grey};
 
 fn color_map(params: Params, image: &Image) -> Box<dyn Texture> {
     built("imagemap", TextureValue::Color, params.string("filename", "x.png"), image)
@@ -50,6 +50,25 @@ fn wrap_modes_match_rows_written_by_hand() {
     }
 }
 
+/// Neighbours on the octahedral map are neighbours on the sphere: every step over an edge leads to the texel that the
+/// unfolded octahedron has there.
+#[test]
+fn the_octahedral_map_goes_on_beyond_its_edges_turned_round() {
+    let n = 4i32;
+    let image = grey(4, 4, (0..16u8).map(f32::from).collect());
+    let map = float_map(Params::new().string("wrap", "octahedralsphere").string("filter", "point"), &image);
+    let texel = |x: i32, y: i32| float(map.as_ref(), (x as f32 + 0.5) / 4.0, 1.0 - (y as f32 + 0.5) / 4.0);
+    for i in 0..n {
+        let here = |x: i32, y: i32| (y * n + x) as f32;
+        assert_eq!(texel(-1, i), here(0, n - 1 - i), "left of row {i}");
+        assert_eq!(texel(n, i), here(n - 1, n - 1 - i), "right of row {i}");
+        assert_eq!(texel(i, -1), here(n - 1 - i, 0), "above column {i}");
+        assert_eq!(texel(i, n), here(n - 1 - i, n - 1), "below column {i}");
+        assert_eq!(texel(i + 2 * n, i - 4 * n), here(i, i), "two and four maps away");
+    }
+    assert_eq!(texel(-1, -1), (n * n - 1) as f32);
+}
+
 #[test]
 fn bilinear_lookup_is_the_tent_of_its_neighbours() {
     let mut random = Random::new(1);
@@ -81,10 +100,20 @@ fn colours_of_eight_bits_are_srgb_and_everything_else_is_linear() {
     let (new, srgb) = (Params::new, || Params::new().string("encoding", "sRGB"));
     assert_eq!(one(new(), &bytes), decoded(188.0 / 255.0));
     assert_eq!(one(new().string("encoding", "linear"), &bytes), 188.0 / 255.0);
-    assert!((number(new(), &bytes) - 188.0 / 255.0).abs() < 1e-6);
+    // As in pbrt-v4, where files of 8 bits are sRGB whatever they are for.
+    assert!((number(new(), &bytes) - decoded(188.0 / 255.0)).abs() < 1e-6);
+    assert!((number(new().string("encoding", "linear"), &bytes) - 188.0 / 255.0).abs() < 1e-6);
+    let power = |c: f64| c.powf(1.8) as f32;
+    for image in [&bytes, &words] {
+        assert!((one(new().string("encoding", "gamma 1.8"), image) - power(188.0 / 255.0)).abs() < 1e-6);
+    }
     assert!((number(srgb(), &bytes) - decoded(188.0 / 255.0)).abs() < 1e-6);
     assert_eq!(number(srgb().string("channel", "a"), &bytes), 128.0 / 255.0);
-    assert_eq!(one(new(), &words), 48_316.0 / 65_535.0);
+    // Those of 16 bits if they are PNG files: the tests' name is "x.png".
+    assert!((one(new(), &words) - decoded(f64::from(48_316.0f32 / 65_535.0))).abs() < 1e-7);
+    assert_eq!(one(new().string("encoding", "linear"), &words), 48_316.0 / 65_535.0);
+    let odd = new().string("encoding", "gamma -1").string("filename", "x.png");
+    assert!(built("imagemap", TextureValue::Color, odd, &words).is_err_and(|m| m.contains("gamma -1")));
     assert!((one(srgb(), &words) - decoded(f64::from(48_316.0f32 / 65_535.0))).abs() < 1e-7);
 }
 
@@ -113,8 +142,15 @@ fn channels_scale_factor_and_inversion_apply_in_order() {
             expected
         );
     }
-    let luminance = float(float_map(Params::new(), &image).as_ref(), 0.5, 0.5);
+    let luminance = Params::new().string("channel", "luminance");
+    let luminance = float(float_map(luminance, &image).as_ref(), 0.5, 0.5);
     assert!((luminance - (0.1 * 0.2126 + 0.2 * 0.7152 + 0.4 * 0.0722)).abs() < 1e-7);
+    let mean = float(float_map(Params::new().string("channel", "mean"), &image).as_ref(), 0.5, 0.5);
+    assert!((mean - 0.7 / 3.0).abs() < 1e-7);
+    let number = |image: &Image| float(float_map(Params::new(), image).as_ref(), 0.5, 0.5);
+    assert_eq!(number(&image), 0.5, "alpha, where there is any");
+    let opaque = Image { data: ImageData::F32(vec![0.1, 0.2, 0.4, 1.0]), ..image.clone() };
+    assert!((number(&opaque) - 0.7 / 3.0).abs() < 1e-7, "the mean elsewhere");
     let params = Params::new().float("scale", 2.0).bool("invert", true).rgb("factor", [1.0, 10.0, 0.5]);
     let [r, g, b] = color(color_map(params, &image).as_ref(), 0.5, 0.5);
     assert!((r - 0.8).abs() < 1e-6 && (g - 6.0).abs() < 1e-6 && (b - 0.1).abs() < 1e-6);
@@ -168,14 +204,10 @@ fn unsound_images_and_mappings_are_refused() {
     let short = Image { width: 2, height: 2, channels: 3, data: ImageData::U8(vec![0; 11]) };
     let params = || Params::new().string("filename", "x");
     assert!(built("imagemap", TextureValue::Color, params(), &short).is_err_and(|m| m.contains("not sound")));
-    let mapped = params().string("mapping", "spherical");
+    let half = params().string("wrap", "octahedralsphere").string("wrapv", "clamp");
     assert!(
-        built("imagemap", TextureValue::Color, mapped, &grey(1, 1, vec![0.0]))
-            .is_err_and(|m| m.contains("spherical"))
-    );
-    let solid = Params::new().int("dimension", 3);
-    assert!(
-        built("checkerboard", TextureValue::Float, solid, &short).is_err_and(|m| m.contains("dimension 3"))
+        built("imagemap", TextureValue::Color, half, &grey(1, 1, vec![0.0]))
+            .is_err_and(|m| m.contains("both directions"))
     );
 }
 
@@ -183,9 +215,8 @@ fn unsound_images_and_mappings_are_refused() {
 fn the_second_texture_coordinates_are_used_where_asked_for() {
     let image = grey(2, 1, vec![1.0, 2.0]);
     let place = durer_model::texture::TextureAt { second_uv: [0.75, 0.5].into(), ..super::at(0.25, 0.5) };
-    let cx = durer_model::ShadeCx { basis: durer_core::spectrum::Basis::Rgb, textures: &[], log: None };
     let with_set = |set: i32| float_map(Params::new().string("filter", "point").int("uvset", set), &image);
-    assert_eq!([with_set(0).float(&cx, &place), with_set(1).float(&cx, &place)], [1.0, 2.0]);
+    assert_eq!([with_set(0).float(&CX, &place), with_set(1).float(&CX, &place)], [1.0, 2.0]);
     assert!(
         built("imagemap", TextureValue::Float, Params::new().string("filename", "x").int("uvset", 2), &image)
             .is_err()

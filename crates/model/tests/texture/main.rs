@@ -1,14 +1,19 @@
 //! Textures against oracles written by hand.
+mod board;
+mod filtered;
 mod image;
+mod mapping;
+mod noise;
 use std::sync::Arc;
 
 use durer_core::{
-    math::{Point2, Point3},
+    glam::DAffine3,
+    math::{Normal3, Point2, Point3},
     spectrum::{Basis, Color},
 };
 use durer_model::{
     ShadeCx,
-    texture::{Texture, TextureAt, textures},
+    texture::{Footprint, Texture, TextureAt, textures},
 };
 use durer_scene::{
     Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, TextureDesc,
@@ -36,7 +41,12 @@ impl Assets for Files {
 fn built(kind: &str, value: TextureValue, params: Params, image: &Image) -> Result<Box<dyn Texture>, String> {
     let (node, files) = (Node::new(kind, params), Files(image.clone()));
     let entry = textures(value).iter().find(|e| e.answers_to(kind)).expect("a registered word");
-    let names = ["a", "b"].map(|n| TextureDesc { name: n.to_owned(), value, node: Node::default() });
+    let names = ["a", "b"].map(|n| TextureDesc {
+        name: n.to_owned(),
+        value,
+        node: Node::default(),
+        world_from_texture: DAffine3::IDENTITY,
+    });
     let mut diagnostics = Diagnostics::default();
     let mut args =
         Args::check(&node, entry.schema, &names, &mut diagnostics).with_assets(&files, Missing::Warn);
@@ -45,15 +55,25 @@ fn built(kind: &str, value: TextureValue, params: Params, image: &Image) -> Resu
 }
 
 fn at(u: f32, v: f32) -> TextureAt {
-    TextureAt { uv: Point2::new(u, v), second_uv: Point2::new(u, v), p: Point3::ZERO, vertex_color: [1.0; 4] }
+    TextureAt {
+        uv: Point2::new(u, v),
+        second_uv: Point2::new(u, v),
+        p: Point3::ZERO,
+        n: Normal3::new(0.0, 0.0, 1.0),
+        vertex_color: [1.0; 4],
+        footprint: Footprint::POINT,
+    }
 }
 
+/// What textures made of no others need.
+const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[], log: None };
+
 fn color(t: &dyn Texture, u: f32, v: f32) -> [f32; 3] {
-    t.color(&ShadeCx { basis: Basis::Rgb, textures: &[], log: None }, &at(u, v)).rgb
+    t.color(&CX, &at(u, v)).rgb
 }
 
 fn float(t: &dyn Texture, u: f32, v: f32) -> f32 {
-    t.float(&ShadeCx { basis: Basis::Rgb, textures: &[], log: None }, &at(u, v))
+    t.float(&CX, &at(u, v))
 }
 
 fn grey(width: u32, height: u32, data: Vec<f32>) -> Image {
@@ -100,8 +120,15 @@ fn every_texture_is_registered_for_colours_and_numbers() {
             let file = entry.schema.params.iter().any(|p| p.name == "filename");
             let params = if file { Params::new().string("filename", "x") } else { Params::new() };
             let texture = built(entry.schema.name, value, params, &image).expect("built from defaults");
-            assert_eq!(color(texture.as_ref(), 0.5, 0.5), [1.0; 3], "{}", entry.schema.name);
-            assert!((float(texture.as_ref(), 0.5, 0.5) - 1.0).abs() < 1e-6, "{}", entry.schema.name);
+            let (rgb, number) = (color(texture.as_ref(), 0.5, 0.5), float(texture.as_ref(), 0.5, 0.5));
+            let luminance = (Color { rgb }).luminance();
+            assert!((luminance - number).abs() < 1e-6, "{}: {rgb:?} {number}", entry.schema.name);
+            let largest = texture.largest(&CX);
+            assert!(
+                rgb.iter().all(|c| c.abs() <= largest) && number.abs() <= largest,
+                "{}",
+                entry.schema.name
+            );
         }
     }
 }

@@ -18,7 +18,12 @@ use std::{
 
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
-use durer_model::{light::Light, material::Material, shape::Geometry, texture::Texture};
+use durer_model::{
+    light::Light,
+    material::Material,
+    shape::Geometry,
+    texture::{Filters, Texture},
+};
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
 use crate::{Media, MediumStack, Scene, integrator::NOT_YET, light_sampler::LightChooser, media};
@@ -73,7 +78,7 @@ pub fn compile(
 ) -> Option<Scene> {
     let names = durer_scene::TextureNames::of(&desc.textures);
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
-    let ((textures, mut materials), of_textures) = timed(|| (nodes.textures(), nodes.materials()));
+    let ((mut textures, mut materials), of_textures) = timed(|| (nodes.textures(), nodes.materials()));
     let (shapes, of_shapes) = timed(|| nodes.shapes());
     let counts = GeometryCounts::of(desc, &shapes);
     let bounds = geometry::world_bounds(desc, &shapes);
@@ -92,6 +97,10 @@ pub fn compile(
     let origin = world_from_camera.translation;
     let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
+    // If one of them could not be built, this scene is never looked at.
+    for (texture, described) in textures.iter_mut().zip(&desc.textures) {
+        texture.place(&(render_from_world * described.world_from_texture));
+    }
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let materials: Arc<[Box<dyn Material>]> = materials.into();
@@ -108,7 +117,8 @@ pub fn compile(
     };
     let (placed, of_placing) = timed(|| placing.place(shapes, diagnostics));
     let (view, placed) = (view?, placed?);
-    let report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
+    let mut report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
+    report.texture_bytes = textures.iter().map(|texture| texture.bytes()).sum();
     if diagnostics.has_errors() {
         return None;
     }
@@ -119,6 +129,7 @@ pub fn compile(
         brightest: Default::default(),
         report,
         objects: placed.objects,
+        filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
         textures,
         texture_names: desc.textures.iter().map(|t| t.name.clone()).collect(),
         material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),

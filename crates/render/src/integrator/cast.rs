@@ -1,8 +1,7 @@
 //! Ray casting: one ray per sample, and what the lecture shows of the hit: depth, normal, local shading.
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
-use durer_model::bsdf::Seen;
-use durer_model::material::GlossRays;
+use durer_model::{bsdf::Seen, material::GlossRays, texture::Habit};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
@@ -11,6 +10,7 @@ use super::{
 };
 use crate::{
     Contribution, MediumStack, PathRay, SampleCx, Value,
+    footprint::Onlooker,
     probe::{Counters, Probe, RayKind, Shaded, StopReason, TreeNode},
 };
 
@@ -100,7 +100,7 @@ impl Transport for Cast {
         let counts = (self.show == Show::Cost).then(|| count(cx, &ray));
         out.value = match cx.scene.closest(cx, &ray.ray, probe, id) {
             Some(hit) => {
-                let s = Shading::at(cx, &ray.ray, &hit);
+                let s = Shading::at(cx, &ray.ray, &hit, Some(Onlooker::of(&ray, Habit::Asked)));
                 probe.surface(id, s.object, &hit, &s.surface);
                 if P::RECORDS {
                     probe.shaded(id, &self.shaded(cx, &s));

@@ -12,7 +12,7 @@ use durer_model::{
     light::{LightCx, LightHit, LightSample},
 };
 
-use crate::{Object, SampleCx};
+use crate::{Object, SampleCx, footprint::Onlooker};
 
 /// Shadow rays use sampler branches from here on; scattered rays use those below.
 pub(super) const LIGHT_BRANCH: u32 = 1 << 16;
@@ -51,9 +51,12 @@ pub(super) struct Lamp {
 }
 
 impl Shading {
-    /// The place where `ray`, of unit direction, hit.
-    pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit) -> Self {
+    /// The place where `ray`, of unit direction, hit; without `onlooker` textures are not filtered.
+    pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit, onlooker: Option<Onlooker>) -> Self {
         let (object, mut surface) = cx.scene.surface(ray, hit);
+        if let Some(onlooker) = onlooker.filter(|o| o.asks(cx.scene.filters)) {
+            surface.footprint = onlooker.footprint(&cx.scene.view, ray, hit.t, &surface);
+        }
         let lamp = cx.scene.object(object).light.map(|light| {
             let part = cx.scene.resolve(hit).1;
             let radiance = cx.scene.lights[light as usize].emitted(cx.basis, &surface, -ray.d);

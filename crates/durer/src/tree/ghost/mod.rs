@@ -289,6 +289,7 @@ fn color(scene: &Scene, object: &Object, world: DVec3) -> Rgb {
             dpdu: Vector3::new(1.0, 0.0, 0.0),
             dpdv: Vector3::new(0.0, 1.0, 0.0),
             vertex_color: [1.0; 4],
+            footprint: durer_model::texture::Footprint::POINT,
         };
         let albedo = material.bsdf(&cx, &mut surface, Vector3::new(0.0, 0.0, 1.0)).albedo();
         sum.iter_mut().zip(Basis::Rgb.to_rgb(albedo)).for_each(|(s, v)| *s += v / 16.0);

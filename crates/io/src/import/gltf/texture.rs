@@ -1,7 +1,7 @@
 //! Textures: images by name, samplers, and texture transforms turned to our v, which grows upwards.
 use std::collections::HashMap;
 
-use durer_core::math::float;
+use durer_core::{glam::DAffine3, math::float};
 use durer_scene::{Data, Location, Node, Params, TextureDesc, TextureValue, ValueType};
 
 use super::{
@@ -89,7 +89,12 @@ impl<'b, 'a> Textures<'b, 'a> {
         let count = self.list.len();
         let name = self.names.entry(key).or_insert_with(|| {
             let name = format!("texture:{count}");
-            self.list.push(TextureDesc { name: name.clone(), value, node: Node { at, ..node } });
+            self.list.push(TextureDesc {
+                name: name.clone(),
+                value,
+                node: Node { at, ..node },
+                world_from_texture: DAffine3::IDENTITY,
+            });
             name
         });
         Ok(Some(name.clone()))
@@ -146,10 +151,15 @@ impl<'b, 'a> Textures<'b, 'a> {
         if u != v {
             params = params.string("wrapv", v);
         }
-        Ok(if sampler.index_or("magFilter", 9729)? == 9728 {
-            params.string("filter", "point")
-        } else {
-            params
+        // What is chosen for texels that are wide in the picture counts; then whether there are smaller copies.
+        let filter = match (sampler.index_or("magFilter", 9729)?, sampler.index_or("minFilter", 9729)?) {
+            (9728, _) => Some("point"),
+            (_, 9984..=9987) => Some("trilinear"),
+            _ => None,
+        };
+        Ok(match filter {
+            Some(word) => params.string("filter", word),
+            None => params,
         })
     }
 

@@ -5,6 +5,7 @@
 //! be seen without it.
 use std::collections::{BTreeMap, HashMap};
 
+use durer_core::glam::DAffine3;
 use durer_scene::{AssetError, Assets, Image, ImageData, Node, Params, TextureDesc, TextureValue};
 use rayon::prelude::*;
 
@@ -115,7 +116,12 @@ impl Textures {
         let node = Node::new("imagemap", params);
         let name = format!("texture:{}", self.list.len());
         let known = self.names.entry(format!("{value:?} {:?}", node.params)).or_insert_with(|| {
-            self.list.push(TextureDesc { name: name.clone(), value, node });
+            self.list.push(TextureDesc {
+                name: name.clone(),
+                value,
+                node,
+                world_from_texture: DAffine3::IDENTITY,
+            });
             name
         });
         Some(known.clone())

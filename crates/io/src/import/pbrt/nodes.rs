@@ -219,7 +219,8 @@ impl Parser<'_> {
             Node { kind: kind.text, params: stored(params), at: kind.at.into() }
         });
         if let Some(value) = value {
-            self.world.texture(&name, value, node.as_ref().ok().cloned(), self.input.diagnostics);
+            let placed = (node.as_ref().ok().cloned(), &self.state.ctm);
+            self.world.texture(&name, value, placed, self.input.diagnostics);
         }
         node.map(|_| ())
     }

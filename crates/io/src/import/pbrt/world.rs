@@ -135,12 +135,12 @@ impl<'a> World<'a> {
         })
     }
 
-    /// Adds a texture.
+    /// Adds a texture, whose own space is where `placement` was when the shutter opened.
     pub(super) fn texture(
         &mut self,
         name: &Word,
         value: TextureValue,
-        node: Option<Node>,
+        (node, placement): (Option<Node>, &Placement),
         diagnostics: &mut Diagnostics,
     ) {
         let [floats, colors] = &mut self.textures;
@@ -151,7 +151,8 @@ impl<'a> World<'a> {
         if !names.insert(name.text.clone()) {
             diagnostics.error(name.at, format!("the {what} texture \"{}\" is defined twice", name.text));
         } else if let Some(node) = node {
-            self.desc.textures.push(TextureDesc { name: name.text.clone(), value, node });
+            let world_from_texture = placement.at(self.times.0, self.times);
+            self.desc.textures.push(TextureDesc { name: name.text.clone(), value, node, world_from_texture });
         }
     }
 

@@ -207,7 +207,12 @@ fn place(mesh: Mesh, texture: Option<String>, complaints: &mut Vec<Complaint>, i
         Some(filename) => {
             let node =
                 Node::new("imagemap", Params::new().string("filename", filename).string("encoding", "sRGB"));
-            desc.textures.push(TextureDesc { name: filename.clone(), value: TextureValue::Color, node });
+            desc.textures.push(TextureDesc {
+                name: filename.clone(),
+                value: TextureValue::Color,
+                node,
+                world_from_texture: DAffine3::IDENTITY,
+            });
             matte.texture("basecolor", filename)
         }
         None => matte.rgb("basecolor", [1.0; 3]),

@@ -1,7 +1,7 @@
 //! Where textures are looked up at a point that was chosen on a light.
 use durer_core::{
     glam::DVec3,
-    math::{Point2, Point3, Ray, Vector3},
+    math::{Normal3, Point2, Point3, Ray, Vector3},
 };
 use durer_scene::Mesh;
 
@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     shape::{Shape, mesh_surface},
-    texture::TextureAt,
+    texture::{Footprint, TextureAt},
 };
 
 /// Points by which a light is measured.
@@ -79,6 +79,8 @@ pub(super) fn on_shape(shape: &dyn Shape, (p, n): (DVec3, DVec3)) -> TextureAt {
         uv: Point2::new(0.5, 0.5),
         second_uv: Point2::new(0.5, 0.5),
         p: Point3::from_f64(p),
+        n: Normal3::from_f64(n),
         vertex_color: [1.0; 4],
+        footprint: Footprint::POINT,
     })
 }

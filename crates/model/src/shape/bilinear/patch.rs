@@ -14,7 +14,7 @@ use durer_core::{
 };
 
 use super::super::{AreaPoint, Outline, Shape, ShapeHit, accept, flat};
-use crate::Surface;
+use crate::{Surface, texture::Footprint};
 
 /// A patch over `(u, v)` in the unit square. The outside is towards `dP/du x dP/dv`.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,6 +212,7 @@ impl Shape for Patch {
             dpdu,
             dpdv,
             vertex_color: [1.0; 4],
+            footprint: Footprint::POINT,
         }
     }
 

@@ -2,45 +2,47 @@
 //!
 //! Texture space has v upwards: `(0, 0)` is the lower left corner, image row 0 lies at v = 1. The texel of column i covers
 //! `[i / w, (i + 1) / w)`. Texels are decoded to linear values before they are interpolated (Physically Based Rendering,
-//! 4th edition, section 10.4.1). No mip maps: distant images need more samples.
+//! 4th edition, section 10.4). The filters point and bilinear look at the image itself; pbrt-v4 has them choose a copy by the
+//! footprint too, which differs where an image is seen from far.
+mod encoding;
+mod filter;
+mod footprint;
+mod lookup;
+mod pyramid;
 mod srgb;
 pub(crate) mod texels;
 mod wrap;
 
 use std::sync::Arc;
 
-use durer_core::spectrum::Color;
+use durer_core::{glam::DAffine3, spectrum::Color};
 use durer_scene::{Args, Image, ImageData, Kind, ParamDefault, ParamSpec, ParamType, Schema, TextureValue};
 
 use super::{
-    Texture, TextureAt,
-    mapping::{MAPPING, U_DELTA, U_SCALE, UV_MATRIX, UV_SET, UvMapping, V_DELTA, V_SCALE},
+    Filters, Texture, TextureAt,
+    mapping::{MAPPING, Mapping, U_DELTA, U_SCALE, UV_MATRIX, UV_SET, V_DELTA, V_SCALE, V1, V2},
 };
 use crate::ShadeCx;
+use encoding::Encoding;
+use filter::{FILTER, Filter, MAX_ANISOTROPY};
+use lookup::Picture;
 use texels::Texels;
 use wrap::Wrap;
-
-/// What becomes of the place between texel centres.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Filter {
-    Point,
-    Bilinear,
-}
 
 /// The number that a colour becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Channel {
     Rgba(usize),
     Luminance,
+    /// Of red, green and blue.
+    Mean,
 }
 
 /// An image, looked up by texture coordinates.
 #[derive(Clone, Debug)]
 pub struct ImageMap {
-    texels: Texels,
-    mapping: UvMapping,
-    wrap: [Wrap; 2],
-    filter: Filter,
+    picture: Picture,
+    mapping: Mapping,
     channel: Channel,
     scale: f32,
     factor: Color,
@@ -48,36 +50,16 @@ pub struct ImageMap {
 }
 
 impl ImageMap {
-    fn texel(&self, x: i64, y: i64) -> [f32; 4] {
-        let x = self.wrap[0].index(x, self.texels.width());
-        let y = self.wrap[1].index(y, self.texels.height());
-        x.zip(y).map_or([0.0; 4], |(x, y)| self.texels.rgba(x, y))
-    }
-
     /// Linear RGBA, filtered. Black at coordinates that are not finite.
+    #[inline]
     fn lookup(&self, at: &TextureAt) -> [f32; 4] {
         let [u, v] = self.mapping.apply(at);
-        let x = u * f64::from(self.texels.width());
-        let y = (1.0 - v) * f64::from(self.texels.height());
-        if !(x.is_finite() && y.is_finite()) {
-            return [0.0; 4];
+        if !self.picture.has_levels() || at.footprint.is_point() {
+            return self.picture.at([u, 1.0 - v]);
         }
-        if self.filter == Filter::Point {
-            return self.texel(x.floor() as i64, y.floor() as i64);
-        }
-        let (x, y) = (x - 0.5, y - 0.5);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (fx, fy) = ((x - x0) as f32, (y - y0) as f32);
-        // Saturates far out, where neighbours are one anyway.
-        let (x0, y0) = (x0 as i64, y0 as i64);
-        let (x1, y1) = (x0.saturating_add(1), y0.saturating_add(1));
-        let corners = [
-            (self.texel(x0, y0), (1.0 - fx) * (1.0 - fy)),
-            (self.texel(x1, y0), fx * (1.0 - fy)),
-            (self.texel(x0, y1), (1.0 - fx) * fy),
-            (self.texel(x1, y1), fx * fy),
-        ];
-        std::array::from_fn(|c| corners.iter().map(|(texel, weight)| texel[c] * weight).sum())
+        let steps = self.mapping.spread(at, &at.footprint);
+        // Rows count downwards.
+        self.picture.under([u, 1.0 - v], steps.map(|[du, dv]| [du, -dv]))
     }
 
     /// `scale c`, or `1 - scale c` if inverted; never negative.
@@ -87,44 +69,18 @@ impl ImageMap {
     }
 
     fn read(args: &mut Args<'_>, value: TextureValue) -> Option<Self> {
-        let mapping = UvMapping::read(args);
+        let mapping = Mapping::read(args);
         let image = args.image("filename");
         if !args.is_sound() {
             return None;
         }
-        let word = if args.is_set("wrapv") { "wrapv" } else { "wrap" };
-        let wrap = [Wrap::of_word(args.text("wrap")), Wrap::of_word(args.text(word))];
-        let filter = match args.text("filter") {
-            "point" => Filter::Point,
-            "bilinear" => Filter::Bilinear,
-            other => {
-                args.warning(
-                    "filter",
-                    format!("the filter \"{other}\" is not supported yet; bilinear is used"),
-                );
-                Filter::Bilinear
-            }
-        };
         let is_color = value == TextureValue::Color;
-        let channel = match if is_color { "luminance" } else { args.text("channel") } {
-            "r" => Channel::Rgba(0),
-            "g" => Channel::Rgba(1),
-            "b" => Channel::Rgba(2),
-            "a" => Channel::Rgba(3),
-            _ => Channel::Luminance,
-        };
-        let factor = if is_color { args.color("factor") } else { Color::WHITE };
-        let (scale, invert) = (args.float("scale"), args.bool("invert"));
         let Some(image) = image else {
             let texels = Texels::new(Arc::new(placeholder()), false);
-            let wrap = [Wrap::Repeat; 2];
-            let filter = Filter::Point;
             return Some(Self {
-                texels,
+                picture: Picture::new(texels, [Wrap::Repeat; 2], Filter::Point),
                 mapping,
-                wrap,
-                filter,
-                channel,
+                channel: Channel::Luminance,
                 scale: 1.0,
                 factor: Color::WHITE,
                 invert: false,
@@ -140,21 +96,51 @@ impl ImageMap {
             args.error("filename", format!("the image is not sound: {values} values for {stored}"));
             return None;
         }
-        let encoded = match args.text("encoding") {
-            "" => is_color && matches!(image.data, ImageData::U8(_)),
-            word => word == "sRGB",
-        };
+        let channel = if is_color { Channel::Luminance } else { channel(args, &image) };
+        let texels = Texels::stored_as(Arc::clone(&image), Encoding::read(args, &image.data)?);
         Some(Self {
-            texels: Texels::new(image, encoded),
+            picture: Picture::new(texels, wrap(args)?, Filter::read(args)),
             mapping,
-            wrap,
-            filter,
             channel,
-            scale,
-            factor,
-            invert,
+            scale: args.float("scale"),
+            factor: if is_color { args.color("factor") } else { Color::WHITE },
+            invert: args.bool("invert"),
         })
     }
+}
+
+/// The number that the image gives; by default what pbrt-v4 takes.
+fn channel(args: &Args<'_>, image: &Image) -> Channel {
+    match args.text("channel") {
+        "r" => Channel::Rgba(0),
+        "g" => Channel::Rgba(1),
+        "b" => Channel::Rgba(2),
+        "a" => Channel::Rgba(3),
+        "luminance" => Channel::Luminance,
+        "mean" => Channel::Mean,
+        _ if image.channels == 4 && !is_opaque(image) => Channel::Rgba(3),
+        _ => Channel::Mean,
+    }
+}
+
+/// Whether the fourth channel is 1 everywhere.
+fn is_opaque(image: &Image) -> bool {
+    match &image.data {
+        ImageData::U8(v) => v.chunks_exact(4).all(|p| p[3] == u8::MAX),
+        ImageData::U16(v) => v.chunks_exact(4).all(|p| p[3] == u16::MAX),
+        ImageData::F32(v) => v.chunks_exact(4).all(|p| p[3] == 1.0),
+    }
+}
+
+/// What is beyond the edges along u and v; `None` after a complaint.
+fn wrap(args: &mut Args<'_>) -> Option<[Wrap; 2]> {
+    let word = if args.is_set("wrapv") { "wrapv" } else { "wrap" };
+    let wrap = [Wrap::of_word(args.text("wrap")), Wrap::of_word(args.text(word))];
+    if (wrap[0] == Wrap::Octahedral) != (wrap[1] == Wrap::Octahedral) {
+        args.error("wrapv", "octahedralsphere concerns both directions: give no other \"wrapv\"");
+        return None;
+    }
+    Some(wrap)
 }
 
 /// Shown for an image that is missing: magenta and black squares, eight each way.
@@ -175,13 +161,24 @@ impl Texture for ImageMap {
         self.adjusted(match self.channel {
             Channel::Rgba(c) => rgba[c],
             Channel::Luminance => Color::new(r, g, b).luminance(),
+            Channel::Mean if r == g && g == b => r,
+            Channel::Mean => (r + g + b) / 3.0,
         })
     }
-    /// Interpolation makes nothing larger.
+    /// Means make nothing larger.
     fn largest(&self, _: &ShadeCx<'_>) -> f32 {
-        let scaled = self.scale.abs() * self.texels.largest();
+        let scaled = self.scale.abs() * self.picture.largest();
         let factor = self.factor.rgb.into_iter().fold(0.0, |most: f32, v| most.max(v.abs()));
         (if self.invert { 1.0 + scaled } else { scaled }) * factor
+    }
+    fn place(&mut self, render_from_texture: &DAffine3) {
+        self.mapping.place(render_from_texture);
+    }
+    fn filters(&self) -> Filters {
+        if self.picture.has_levels() { Filters::Always } else { Filters::Never }
+    }
+    fn bytes(&self) -> u64 {
+        self.picture.bytes()
     }
 }
 
@@ -195,7 +192,7 @@ const WRAP: ParamSpec = ParamSpec::new(
     "wrap",
     ParamType::Choice(Wrap::WORDS),
     ParamDefault::Text("repeat"),
-    "Beyond the image's edges: repeat it, clamp to the edge, repeat mirrored, or black.",
+    "Beyond the image's edges: repeat it, clamp to the edge, repeat mirrored, black, or as the octahedral map of a sphere.",
 );
 const WRAP_V: ParamSpec = ParamSpec::new(
     "wrapv",
@@ -205,17 +202,11 @@ const WRAP_V: ParamSpec = ParamSpec::new(
 );
 const ENCODING: ParamSpec = ParamSpec::new(
     "encoding",
-    ParamType::Choice(&["sRGB", "linear"]),
+    ParamType::Text,
     ParamDefault::Unset,
-    "How colours are stored; default: sRGB for colour textures of 8 bits, else linear. Alpha is always linear.",
+    "How colours are stored: sRGB, linear, or gamma and the exponent, as \"gamma 2.2\". Default: sRGB for images of 8 bits \
+     and PNG, else linear. Alpha is always linear.",
 );
-const FILTER: ParamSpec = ParamSpec::new(
-    "filter",
-    ParamType::Choice(&["bilinear", "point", "trilinear", "ewa", "EWA"]),
-    ParamDefault::Text("bilinear"),
-    "Between texel centres: interpolate, or take the nearest (point).",
-);
-const MAX_ANISOTROPY: ParamSpec = ParamSpec::float("maxanisotropy", 8.0, "Of the ewa filter; no effect.");
 const SCALE: ParamSpec = ParamSpec::float("scale", 1.0, "Factor of all values.");
 const INVERT: ParamSpec =
     ParamSpec::new("invert", ParamType::Bool, ParamDefault::Bool(false), "Take 1 - x of every scaled value.");
@@ -247,6 +238,8 @@ impl Kind for ColorImageMap {
             V_DELTA,
             UV_MATRIX,
             MAPPING,
+            V1,
+            V2,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -274,9 +267,10 @@ impl Kind for FloatImageMap {
             SCALE,
             ParamSpec::new(
                 "channel",
-                ParamType::Choice(&["r", "g", "b", "a", "luminance"]),
-                ParamDefault::Text("luminance"),
-                "Which number to take; a is alpha, 1 if the image has none.",
+                ParamType::Choice(&["r", "g", "b", "a", "luminance", "mean"]),
+                ParamDefault::Unset,
+                "Which number to take; a is alpha, 1 if the image has none, mean that of r, g and b. Default, as in pbrt: a of \
+                 images that are not opaque, mean of the others.",
             ),
             INVERT,
             UV_SET,
@@ -286,6 +280,8 @@ impl Kind for FloatImageMap {
             V_DELTA,
             UV_MATRIX,
             MAPPING,
+            V1,
+            V2,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use durer_scene::{Image, ImageData};
 use rayon::prelude::*;
 
-use super::srgb;
+use super::encoding::Encoding;
 
 /// An image with the meaning of its values.
 #[derive(Clone, Debug)]
@@ -12,15 +12,21 @@ pub(crate) struct Texels {
     image: Arc<Image>,
     /// Linear value of every byte, for images of 8 bits.
     bytes: [f32; 256],
-    /// True if colours are stored sRGB-encoded.
-    encoded: bool,
+    encoding: Encoding,
 }
 
 impl Texels {
     /// `encoded`: whether colours (never alpha) are sRGB-encoded.
     pub(crate) fn new(image: Arc<Image>, encoded: bool) -> Self {
-        let bytes = if encoded { srgb::table() } else { std::array::from_fn(|byte| byte as f32 / 255.0) };
-        Self { image, bytes, encoded }
+        Self::stored_as(image, if encoded { Encoding::Srgb } else { Encoding::Linear })
+    }
+    /// The same with any encoding.
+    pub(crate) fn stored_as(image: Arc<Image>, encoding: Encoding) -> Self {
+        Self { image, bytes: encoding.table(), encoding }
+    }
+    /// Channels as stored.
+    pub(crate) fn channels(&self) -> usize {
+        self.image.channels as usize
     }
     /// Texels per row.
     pub(crate) fn width(&self) -> u32 {
@@ -48,7 +54,7 @@ impl Texels {
             ImageData::U8(_) | ImageData::U16(_) => return 1.0,
             ImageData::F32(v) => v.par_iter().map(|v| v.abs()).reduce(|| 1.0, f32::max),
         };
-        if self.encoded { stored.max(srgb::decode(stored.into())) } else { stored }
+        stored.max(self.encoding.decode(stored.into()))
     }
     /// A value as stored; integers are mapped to `[0, 1]`.
     fn stored(&self, i: usize) -> f64 {
@@ -62,8 +68,7 @@ impl Texels {
     fn color(&self, i: usize) -> f32 {
         match &self.image.data {
             ImageData::U8(v) => self.bytes[usize::from(v[i])],
-            _ if self.encoded => srgb::decode(self.stored(i)),
-            _ => self.stored(i) as f32,
+            _ => self.encoding.decode(self.stored(i)),
         }
     }
 }

@@ -3,7 +3,10 @@
 //! A path is followed without recursion, and its radiance summed from the far end to the eye, as the recorder folds it.
 use durer_accel::Hit;
 use durer_core::{math::Ray, sampling::Dim, spectrum::Spectrum};
-use durer_model::bsdf::{BranchKind, Scattered};
+use durer_model::{
+    bsdf::{BranchKind, Scattered},
+    texture::Habit,
+};
 
 use super::{
     super::{
@@ -14,6 +17,7 @@ use super::{
 };
 use crate::{
     Contribution, Lit, PathRay, SampleCx, Value,
+    footprint::Onlooker,
     media::{Boundary, Crossing},
     probe::{Choice, Limit, Probe, RayKind, StopReason, TreeNode},
 };
@@ -122,7 +126,7 @@ impl<'a, P: Probe> Follow<'a, P> {
 
     fn shade(&mut self, ray: &PathRay, hit: &Hit, id: P::Id) -> Step {
         let walk = &mut self.walk;
-        let mut s = Shading::at(walk.cx, &ray.ray, hit);
+        let mut s = Shading::at(walk.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
         walk.probe.surface(id, s.object, hit, &s.surface);
         let crossing = walk.cross(&ray.media, &mut s, hit.t);
         let arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);

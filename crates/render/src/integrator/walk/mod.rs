@@ -17,10 +17,12 @@ mod shadow;
 
 use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
+use durer_model::texture::Habit;
 
 use super::shading::Shading;
 use crate::{
     Contribution, Imbalances, PathRay, SampleCx, Value,
+    footprint::Onlooker,
     media::Boundary,
     probe::{Probe, RayKind, StopReason, TreeNode},
 };
@@ -110,7 +112,7 @@ impl<'a, P: Probe> Walk<'a, P> {
 
     fn shade(&mut self, ray: &PathRay, hit: &Hit, id: P::Id) -> Spectrum {
         let cx = self.cx;
-        let mut s = Shading::at(cx, &ray.ray, hit);
+        let mut s = Shading::at(cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::Asked)));
         self.probe.surface(id, s.object, hit, &s.surface);
         let crossing = self.cross(&ray.media, &mut s, hit.t);
         let arriving = self.arriving(&ray.media, ray.from, &ray.ray, hit.t);

@@ -121,7 +121,7 @@ impl<P: Probe> Walk<'_, P> {
             let unit = ray.d.length();
             let seen = Ray { d: ray.d / unit, ..ray };
             let hit = Hit { t: hit.t * unit, ..hit };
-            let mut s = Shading::at(cx, &seen, &hit);
+            let mut s = Shading::at(cx, &seen, &hit, None);
             let crossing = self.cross(&bodies, &mut s, hit.t);
             match crossing.boundary {
                 Boundary::Passed => {}
