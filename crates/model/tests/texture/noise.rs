@@ -41,10 +41,10 @@ fn noise_is_zero_at_corners_and_repeats_after_256_cells() {
 #[test]
 fn noise_has_the_values_of_pbrt() {
     for (p, expected) in [
-        ([0.5, 0.5, 0.5], -0.1250000),
+        ([0.5, 0.5, 0.5], -0.125),
         ([3.25, -7.5, 11.75], 0.0383635),
         ([200.125, 255.5, -0.25], 0.4716489),
-        ([-1.5, 2.5, 0.5], -0.1250000),
+        ([-1.5, 2.5, 0.5], -0.125),
     ] {
         let value = number(noise().as_ref(), p);
         assert!((value - expected).abs() < 1e-5, "{p:?}: {value} {expected}");
