@@ -6,7 +6,7 @@ use durer_core::{
 use durer_model::{
     ShadeCx, Surface,
     material::{MATERIALS, Material},
-    texture::{Texture, TextureAt},
+    texture::{Footprint, Texture, TextureAt},
 };
 use durer_scene::{
     Args, Data, Diagnostics, NamedNode, Node, ParamType, Params, TextureDesc, TextureValue, ValueType, find,
@@ -28,6 +28,7 @@ fn place() -> Surface {
         dpdu: Vector3::new(2.0, 1.0, 0.0),
         dpdv: Vector3::new(0.0, 0.5, 0.0),
         vertex_color: [1.0; 4],
+        footprint: Footprint::POINT,
     }
 }
 
@@ -204,6 +205,7 @@ fn bumps_tilt_the_normal_against_the_slope() {
         name: "slope".into(),
         value: TextureValue::Float,
         node: Node::new("constant", Params::new()),
+        world_from_texture: durer_core::glam::DAffine3::IDENTITY,
     };
     let node = Node::new("diffuse", Params::new().texture("displacement", "slope"));
     let mut diagnostics = Diagnostics::default();

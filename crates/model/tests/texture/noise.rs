@@ -37,8 +37,20 @@ fn noise_is_zero_at_corners_and_repeats_after_256_cells() {
     }
 }
 
-/// At the middle of a cell noise is the mean of its eight corners' gradients times offsets, multiples of 1/8; pbrt-v4 gives
-/// these values for its own `Noise`, of which this is the table.
+/// Values of pbrt-v4's noise, worked out apart from this code from its permutation and gradients in double precision.
+#[test]
+fn noise_has_the_values_of_pbrt() {
+    for (p, expected) in [
+        ([0.5, 0.5, 0.5], -0.125),
+        ([3.25, -7.5, 11.75], 0.0383635),
+        ([200.125, 255.5, -0.25], 0.4716489),
+        ([-1.5, 2.5, 0.5], -0.125),
+    ] {
+        let value = number(noise().as_ref(), p);
+        assert!((value - expected).abs() < 1e-5, "{p:?}: {value} {expected}");
+    }
+}
+
 #[test]
 fn noise_is_smooth_small_and_has_mean_zero() {
     let (noise, mut random) = (noise(), Random::new(12));
