@@ -181,7 +181,7 @@ fn highlight(eye: DVec3, middle: DVec3, light: DVec3) -> DVec3 {
 
 #[test]
 fn highlights_are_blurred_along_the_path_of_their_ball_c7() {
-    let scene = cook(Options { samples: Some(64), ..Options::default() });
+    let scene = cook(Options { samples: Some(96), ..Options::default() });
     let eye = world(&scene, scene.scene.view.ray(Point2::new(0.0, 0.0), Point2::new(0.5, 0.5), 0.0).o);
     let windows =
         [("window, left", DVec3::new(-7.8, 10.05, -1.3)), ("window, right", DVec3::new(-7.8, 10.05, 1.3))];
@@ -189,7 +189,7 @@ fn highlights_are_blurred_along_the_path_of_their_ball_c7() {
     let mut found: Vec<([f64; 2], f64)> = Vec::new();
     // Around the way of the highlight.
     for pixel in pixels().filter(|[x, y]| (18..35).contains(x) && (23..38).contains(y)) {
-        for sample in 0..64 {
+        for sample in 0..96 {
             let tree = scene.job().record(pixel, sample).0;
             let (time, is_cue) =
                 (moment(&scene, pixel, sample), name(&scene, &tree.nodes[0]) == Some(cue.name));

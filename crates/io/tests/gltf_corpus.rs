@@ -36,15 +36,11 @@ fn real_files_import_with_the_triangle_counts_of_the_table() {
         let started = Instant::now();
         let imported = open(&shared.join(&file), Limits::default());
         let time = started.elapsed();
-        let required = [
-            ("Draco", "KHR_draco_mesh_compression", "gltf-transform"),
-            ("IridescenceSuzanne", "KHR_materials_iridescence", "extensionsUsed"),
-        ];
-        if let Some((_, extension, way_out)) = required.iter().find(|(name, ..)| file.contains(name)) {
+        if file.contains("Draco") {
             let refusal =
                 imported.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
-            assert!(refusal.message.contains(extension), "{}", refusal.message);
-            assert!(refusal.hint.as_deref().is_some_and(|h| h.contains(way_out)));
+            assert!(refusal.message.contains("KHR_draco_mesh_compression"), "{}", refusal.message);
+            assert!(refusal.hint.as_deref().is_some_and(|h| h.contains("gltf-transform")));
             continue;
         }
         assert!(!imported.diagnostics.has_errors(), "{file}: {}", complaints(&imported));

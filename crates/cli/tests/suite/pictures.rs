@@ -128,7 +128,7 @@ fn an_integrator_that_stands_in_is_named_as_what_it_is() {
     let place = Place::new().with("bdpt.pbrt", &format!("Integrator \"bdpt\"\n{SPHERE}"));
     let ran = place.done("render bdpt.pbrt --spp 1");
     assert!(
-        ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, whitted;"),
+        ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, path;"),
         "{}",
         ran.stderr
     );

@@ -168,7 +168,11 @@ pub fn default_integrator() -> Node {
     Node::new("whitted", durer_scene::Params::new())
 }
 
-/// What is used for an integrator of pbrt that we do not have: the default one, without the parameters of the other.
+/// What is used for an integrator of pbrt that we do not have: paths of as many bounces, which see most of the same light.
 pub fn stand_in_integrator(node: &Node) -> Option<Node> {
-    NOT_YET.contains(&node.kind.as_str()).then(default_integrator)
+    let mut params = durer_scene::Params::new();
+    if let Some(depth) = node.params.get("maxdepth") {
+        params.push(depth.clone());
+    }
+    NOT_YET.contains(&node.kind.as_str()).then(|| Node::new("path", params))
 }

@@ -147,6 +147,6 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Cast>(),
 ];
 
-/// pbrt-v4's integrators that we do not have yet; [`Whitted`] stands in for them, with a warning.
+/// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] =
     &["bdpt", "function", "lightpath", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];
