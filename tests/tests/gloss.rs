@@ -66,10 +66,10 @@ fn light_found_by_shadow_rays_and_by_gloss_rays_counts_once() {
     surfaces.extend([0.05, 0.3, 0.8].map(|r| (glass(r), -1.0)));
     for shape in SHAPES {
         for (surface, y) in &surfaces {
-            let found = seen(from, &(surface.clone() + &shining(UNLIT, shape, *y)), &nested(4096, 1, 1));
+            let found = seen(from, &(surface.clone() + &shining(UNLIT, shape, *y)), &nested(16384, 1, 1));
             assert!(found > 0.01, "{surface}: {found}");
             for (shadow, gloss) in [(1, 1), (1, 4), (4, 1), (4, 4), (0, 1)] {
-                let options = nested(2048, shadow, gloss);
+                let options = nested(16384, shadow, gloss);
                 let got = seen(from, &(surface.clone() + &shining(LAMP, shape, *y)), &options);
                 let allowed = 0.02 * found + 0.001;
                 assert!((got - found).abs() < allowed, "{shadow} {gloss} {surface} {shape}: {got} {found}");
@@ -124,7 +124,8 @@ fn ball(radius: f64, material: &str) -> String {
 
 #[test]
 fn frosted_glass_in_a_white_sky_never_gains_and_loses_little_i19() {
-    for (roughness, least) in [(0.0, 0.9999), (0.01, 0.995), (0.1, 0.96), (0.3, 0.8), (1.0, 0.3)] {
+    // At 0.3 three samplers agree on 0.7915.
+    for (roughness, least) in [(0.0, 0.9999), (0.01, 0.995), (0.1, 0.96), (0.3, 0.788), (1.0, 0.3)] {
         let world = format!("{SKY}{}", ball(1.0, &format!("\"float roughness\" {roughness}")));
         let (mean, is_balanced) = portrait(&world, &Options { max_depth: Some(40), ..nested(4, 1, 1) });
         assert!(is_balanced && mean < 1.002 && mean > least, "{roughness}: {mean}");
