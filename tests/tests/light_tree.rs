@@ -66,7 +66,7 @@ fn places() -> [Lit; 3] {
     })
 }
 
-const SKY: &str = "LightSource \"infinite\" \"rgb L\" [.1 .1 .1]\n\
+const SKY: &str = "LightSource \"gradientsky\" \"rgb zenith\" [.1 .1 .1] \"rgb horizon\" [.1 .1 .1] \"rgb ground\" [.1 .1 .1] \"vector3 up\" [0 0 1]\n\
      LightSource \"distant\" \"rgb L\" [.2 .2 .2] \"point3 from\" [0 0 1] \"point3 to\" [1 0 0]\n\
      LightSource \"distant\" \"point3 from\" [0 0 -1] \"point3 to\" [0 0 0]\n\
      LightSource \"point\" \"string falloff\" \"none\" \"rgb I\" [.1 .1 .1] \"point3 from\" [0 0 9]\n";

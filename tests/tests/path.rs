@@ -140,8 +140,9 @@ fn lights_met_and_lights_sampled_count_once() {
 #[test]
 fn e7_a_sky_lights_a_floor_evenly() {
     let white = "Material \"diffuse\" \"rgb reflectance\" [1 1 1]";
-    let found = spot(white, WHITE_SKY, "path", 4096);
-    assert!((found - 1.0).abs() < 2e-3, "{found}: irradiance pi, radiance 1");
+    // Directions by cosine see the same everywhere: no light is asked, and every sample is exact.
+    let found = spot(white, WHITE_SKY, "path", 16);
+    assert!((found - 1.0).abs() < 1e-5, "{found}: irradiance pi, radiance 1");
 }
 
 #[test]

@@ -102,7 +102,8 @@ impl LightChooser {
     /// That of the lights of a scene of this radius, in metres.
     pub(crate) fn new(lights: &[Box<dyn Light>], radius: f32) -> Self {
         let of = |light: &u32| &lights[*light as usize];
-        let sources: Vec<u32> = (0..lights.len() as u32).filter(|i| of(i).is_sampled()).collect();
+        let sources: Vec<u32> =
+            (0..lights.len() as u32).filter(|i| of(i).is_sampled() && !of(i).is_even()).collect();
         let powers = Steps::new(sources.iter().map(|i| of(i).power(radius)).collect());
         let known = |i: u32| of(&i).bounds().map(|bounds| (i, bounds));
         let (members, bounds): (Vec<u32>, Vec<LightBounds>) =

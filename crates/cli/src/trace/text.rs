@@ -98,6 +98,7 @@ fn limit(node: &Node) -> String {
     let [value, threshold] = [limit.value, limit.threshold].map(short);
     match node.stop.as_deref() {
         Some("depth-limit") => format!(": depth {value}, at most {threshold}"),
+        Some("roulette") => format!(": {value} >= {threshold}"),
         _ => format!(": {value} <= {threshold}"),
     }
 }

@@ -35,6 +35,8 @@ pub enum PartKind {
     Straight,
     /// What rays about the mirror direction bring.
     Gloss,
+    /// What rays of surfaces without a main direction bring: light that other surfaces hand on.
+    Bounce,
     /// What rays about the refracted direction bring.
     Translucency,
 }
@@ -68,6 +70,7 @@ impl Part {
             PartKind::Refraction => "the refracted ray".to_owned(),
             PartKind::Straight => "what shines straight through".to_owned(),
             PartKind::Gloss => "gloss rays about the mirror direction".to_owned(),
+            PartKind::Bounce => "light that other surfaces hand on".to_owned(),
             PartKind::Translucency => "rays scattered through the surface".to_owned(),
         }
     }
@@ -160,6 +163,7 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
                 RayKind::Reflection => PartKind::Reflection,
                 RayKind::Refraction if is_straight(child) => PartKind::Straight,
                 RayKind::Refraction => PartKind::Refraction,
+                RayKind::GlossyReflection if is_matte(child) => PartKind::Bounce,
                 RayKind::GlossyReflection => PartKind::Gloss,
                 RayKind::GlossyRefraction => PartKind::Translucency,
             };
@@ -181,6 +185,11 @@ pub(super) fn by_source(prepared: &Prepared, tree: &RayTree) -> Parts {
 /// Whether a ray goes straight on through something thin.
 pub(super) fn is_straight(node: &TreeNode) -> bool {
     node.chosen.and_then(|c| c.lobe) == Some("clear")
+}
+
+/// Whether a ray was drawn from a lobe without a main direction.
+pub(super) fn is_matte(node: &TreeNode) -> bool {
+    matches!(node.chosen.and_then(|c| c.lobe), Some("diffuse" | "matte" | "translucent"))
 }
 
 /// Whether hits spawn no rays, so that their light is theirs alone.

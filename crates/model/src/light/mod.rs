@@ -118,6 +118,11 @@ pub trait Light: Debug + Send + Sync {
     fn is_sampled(&self) -> bool {
         true
     }
+    /// Whether it is as bright in all directions, with nothing known of where it comes in. Then surfaces choose directions
+    /// better than it does, by what they scatter: no path asks it.
+    fn is_even(&self) -> bool {
+        false
+    }
     /// The density with which [`Light::sample`], asked at `from`, gives the direction `d` of a ray that left the scene,
     /// 1/sr; 0 for lights that do not surround it.
     fn pdf_escaped(&self, cx: &LightCx, from: Point3, d: Vector3) -> f32 {

@@ -123,6 +123,7 @@ impl AmbientOcclusion {
         if P::RECORDS {
             probe.chosen(&Choice {
                 by: ChosenBy::Lobe,
+                lobe: Some("diffuse"),
                 cos: Some(wi.z),
                 pdf: Some(pdf),
                 f: (wi.z > 0.0).then(|| weight * (pdf / wi.z)),

@@ -5,7 +5,7 @@ use crate::probe::{RayKind, StopReason, TreeHit, TreeNode, TreeShading};
 use super::{
     super::{
         bodies::present,
-        part::{is_cast, is_straight},
+        part::{is_cast, is_matte, is_straight},
         words::{color, degrees_of, light, list, number, percent, rgb},
     },
     Teller,
@@ -73,6 +73,7 @@ impl Teller<'_> {
             RayKind::Reflection => "mirrored ray",
             RayKind::Refraction if is_straight(node) => "ray that goes straight through",
             RayKind::Refraction => "refracted ray",
+            RayKind::GlossyReflection if is_matte(node) => "scattered ray",
             RayKind::GlossyReflection => "gloss ray",
             RayKind::GlossyRefraction => "scattered ray",
             RayKind::Passing => "ray that goes on",
@@ -210,6 +211,7 @@ impl Teller<'_> {
             RayKind::Reflection => "The mirrored ray",
             RayKind::Refraction if is_straight(node) => "What shines straight through",
             RayKind::Refraction => "The refracted ray",
+            RayKind::GlossyReflection if is_matte(node) => "A scattered ray",
             RayKind::GlossyReflection => "A gloss ray",
             _ => "A scattered ray",
         };

@@ -239,6 +239,9 @@ impl Light for Infinite {
         let shines = |picture: &Picture| picture.density.is_some();
         self.radiance.luminance() > 0.0 && self.picture.as_deref().is_none_or(shines)
     }
+    fn is_even(&self) -> bool {
+        self.picture.is_none() && self.portal.is_none()
+    }
     fn pdf_escaped(&self, _cx: &LightCx, from: Point3, d: Vector3) -> f32 {
         if let Some(pdf) = self.view.as_ref().and_then(|view| view.at(from, d)) {
             return pdf;
