@@ -167,3 +167,16 @@ fn ambient_occlusion_is_the_free_share_of_the_hemisphere() {
         assert!((found - 0.75).abs() < 5e-3, "{found}");
     }
 }
+
+#[test]
+fn surfaces_whose_normals_are_wrong_lose_no_light_of_an_even_sky() {
+    // As the floor of pbrt's scene buddha-fractal: normals along the surface.
+    let text = format!(
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nPixelFilter \"box\"\n\
+         LookAt 2 1.4 0  0 0 0  0.1 0.9 0.3\nCamera \"perspective\" \"float fov\" 0.0001\nWorldBegin\n{WHITE_SKY}\
+         Material \"diffuse\" \"rgb reflectance\" [1 1 1]\nShape \"trianglemesh\" \"integer indices\" [0 1 2] \
+         \"point3 P\" [-9 0 -9  0 0 9  9 0 -9] \"normal N\" [1 0 0  1 0 0  1 0 0]"
+    );
+    let found = mean(&scene(&text, &options("path", 64)));
+    assert!((found - 1.0).abs() < 1e-5, "{found}");
+}

@@ -1,9 +1,6 @@
 //! Light that comes straight: sampled from a light that is chosen, or met by a ray.
 use durer_core::{math::Vector3, sampling::Dim, spectrum::Spectrum};
-use durer_model::{
-    bsdf::BranchKind,
-    light::{LightCx, LightSample},
-};
+use durer_model::light::{LightCx, LightSample};
 
 use super::{
     super::shading::{LIGHT_BRANCH, Lamp, Shading},
@@ -57,8 +54,7 @@ impl<P: Probe> Follow<'_, P> {
         let cx = LightCx { basis: self.walk.cx.basis, time: s.time };
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else { return radiance };
         let asked = self.asked(s, chosen, sample);
-        let kind = s.side_of(sample.wi);
-        if asked.weight.is_black() || (kind == BranchKind::Transmission && !s.bsdf.is_frosted()) {
+        if asked.weight.is_black() {
             if P::ACTIVE {
                 self.report_dark(ray, (s, crossing), &asked, u, id);
             }

@@ -185,7 +185,7 @@ impl<'a, P: Probe> Follow<'a, P> {
             self.walk.probe.stop(id, reason, Spectrum::BLACK);
             return None;
         };
-        let mut child = self.child(parent, (s, crossing), lit, &scattered)?;
+        let mut child = self.child(parent, (s, crossing), lit, &scattered);
         let kind = match scattered.pdf {
             None => RayKind::sharp(scattered.kind),
             Some(_) => RayKind::drawn(scattered.kind),
@@ -225,35 +225,33 @@ impl<'a, P: Probe> Follow<'a, P> {
         Some((straight_on(parent, (s, crossing), weight), RayKind::sharp(BranchKind::Transmission)))
     }
 
-    /// The ray in a scattered direction; `None` if a spread direction lies on the wrong side of the true surface.
+    /// The ray in a scattered direction.
     fn child(
         &self,
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
         lit: &Lit,
         scattered: &Scattered,
-    ) -> Option<PathRay> {
+    ) -> PathRay {
         let time = parent.ray.time;
         let weight = scattered.weight;
         if scattered.passes {
-            return Some(straight_on(parent, (s, crossing), weight));
+            return straight_on(parent, (s, crossing), weight);
         }
         let d = s.frame.to_world(scattered.wi);
-        let d = match scattered.pdf {
-            None => s.keep_side(d, scattered.kind),
-            Some(_) if s.side_of(d) == scattered.kind => d,
-            Some(_) => return None,
-        };
+        // As in pbrt-v4, shading normals decide where spread directions go, whatever the true surface says: where they are
+        // wrong altogether, no light is lost that is there all around (the floor of buddha-fractal).
+        let d = if scattered.pdf.is_none() { s.keep_side(d, scattered.kind) } else { d };
         let ray: Ray = s.surface.spawn(d.normalize(), time);
         let spreads = scattered.pdf.is_some();
-        Some(PathRay {
+        PathRay {
             media: crossing.media(scattered.kind),
             density: scattered.pdf,
             lit: *lit,
             compression: parent.compression * scattered.compression,
             is_blurred: parent.is_blurred || spreads,
             ..parent.child((s.surface.p, ray), weight, SCATTER_BRANCH)
-        })
+        }
     }
 
     /// The probability with which a path goes on: what it carries, but for what the index of refraction does to radiance.
