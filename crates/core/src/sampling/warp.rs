@@ -1,10 +1,7 @@
 //! From the unit square to where samples are wanted, keeping what lies together together.
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f32::consts::FRAC_PI_4;
 
-use crate::math::{
-    Point2, Vector3,
-    float::{cos, sin, sqr},
-};
+use crate::math::{Point2, Vector3, float::sqr};
 
 /// The point of the unit disk for a point of the unit square: squares become rings (Shirley and Chiu 1997, "A Low
 /// Distortion Map Between Disk and Square").
@@ -14,11 +11,23 @@ pub fn concentric_disk(u: Point2) -> [f32; 2] {
     if x == 0.0 && y == 0.0 {
         return [0.0, 0.0];
     }
-    let (r, phi) = match x.abs() > y.abs() {
-        true => (x, FRAC_PI_4 * (y / x)),
-        false => (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)),
-    };
-    [r * cos(phi), r * sin(phi)]
+    if x.abs() > y.abs() {
+        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (y / x));
+        [x * cos, x * sin]
+    } else {
+        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (x / y));
+        [y * sin, y * cos]
+    }
+}
+
+/// Sine and cosine of an angle in `[-pi/4, pi/4]`, by their series, to 1e-7. PERF: every scattered ray asks (bench render).
+#[inline]
+fn sin_cos_of_eighth(x: f32) -> (f32, f32) {
+    let x2 = x * x;
+    let sin =
+        x * (1.0 + x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 * (1.0 / 362_880.0)))));
+    let cos = 1.0 + x2 * (-0.5 + x2 * (1.0 / 24.0 + x2 * (-1.0 / 720.0 + x2 * (1.0 / 40320.0))));
+    (sin, cos)
 }
 
 /// The unit direction about +z for a point of the unit square, with density `z / pi`.
@@ -33,6 +42,16 @@ pub fn cosine_hemisphere(u: Point2) -> Vector3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn series_are_sine_and_cosine() {
+        for i in -1000..=1000 {
+            let x = FRAC_PI_4 * i as f32 / 1000.0;
+            let (sin, cos) = sin_cos_of_eighth(x);
+            assert!((f64::from(sin) - f64::from(x).sin()).abs() < 1e-7, "{x}");
+            assert!((f64::from(cos) - f64::from(x).cos()).abs() < 1e-7, "{x}");
+        }
+    }
 
     #[test]
     fn equal_areas_stay_equal_and_cosines_have_their_mean() {

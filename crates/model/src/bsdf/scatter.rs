@@ -108,9 +108,27 @@ impl Bsdf {
         (pdf > 0.0 && !weight.is_black()).then_some(Scattered { pdf: Some(pdf), weight, ..common })
     }
 
+    /// Whether [`Bsdf::scatter`] has a choice among lobes, or among the ways of one.
+    pub fn has_choice(&self) -> bool {
+        match self.lobes[..self.count] {
+            [Some(Lobe::Diffuse { .. } | Lobe::Behind { .. } | Lobe::Matte(_))] => false,
+            [Some(Lobe::Glossy(glossy))] => !glossy.spreads(),
+            _ => true,
+        }
+    }
+
     /// Value of all lobes that spread, without the cosine, as radiance, and the density with which [`Bsdf::scatter`] gives
     /// this direction; 1/sr both. Highlights beside mirrors are left out: the mirrors show what casts them.
     pub fn eval_with_pdf(&self, wo: Vector3, wi: Vector3) -> (Spectrum, f32) {
+        if let [Some(lobe)] = &self.lobes[..self.count] {
+            // PERF: what shares with nothing is not weighed (bench render).
+            let density = lobe.density(wo, wi);
+            if density <= 0.0 {
+                return (Spectrum::BLACK, 0.0);
+            }
+            let f = lobe.eval(wo, wi) * lobe.compression(wo, on_side(wo, wi));
+            return (self.arriving * f, density);
+        }
         let (mut f, mut pdf, mut total) = (Spectrum::BLACK, 0.0, 0.0);
         let shows = self.shows_lights();
         let kind = on_side(wo, wi);

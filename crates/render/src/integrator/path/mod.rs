@@ -76,7 +76,7 @@ impl Kind for Path {
             ParamSpec::new(
                 "roulettedepth",
                 ParamType::Int,
-                ParamDefault::Int(1),
+                ParamDefault::Int(3),
                 "Bounces after which chance may end a path.",
             )
             .range(0.0, 10_000.0),
