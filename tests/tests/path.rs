@@ -1,6 +1,6 @@
 //! Path tracing against closed forms and against the integrators that branch.
 use durer::{Options, Prepared};
-use durer_tests::{render, scene};
+use durer_tests::{prepared, render, scene};
 
 fn options(integrator: &str, samples: u32) -> Options {
     Options { integrator: Some(integrator.to_owned()), samples: Some(samples), ..Options::default() }
@@ -179,4 +179,30 @@ fn surfaces_whose_normals_are_wrong_lose_no_light_of_an_even_sky() {
     );
     let found = mean(&scene(&text, &options("path", 64)));
     assert!((found - 1.0).abs() < 1e-5, "{found}");
+}
+
+#[test]
+fn files_without_integrator_are_path_traced_as_deep_as_their_language_has_it() {
+    let depth = |of: &Prepared| of.rules["max_depth"].clone();
+    let ball = "WorldBegin\nShape \"sphere\"\n";
+    let ready = |text: &str, integrator: Option<&str>| {
+        scene(text, &Options { integrator: integrator.map(str::to_owned), ..Options::default() })
+    };
+    let silent = ready(ball, None);
+    assert_eq!((silent.integrator_name.as_str(), depth(&silent)), ("path", 5.into()), "as in pbrt-v4");
+    assert_eq!(depth(&ready(ball, Some("direct"))), 5);
+    assert_eq!(depth(&ready(ball, Some("whitted"))), 10);
+    assert_eq!(depth(&ready(&format!("Integrator \"volpath\"\n{ball}"), None)), 5);
+    assert_eq!(depth(&ready(&format!("Integrator \"bdpt\"\n{ball}"), None)), 5);
+    assert_eq!(depth(&ready(&format!("Integrator \"path\" \"integer maxdepth\" 3\n{ball}"), None)), 3);
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("one.obj");
+    std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    let opened = |integrator: Option<&str>| {
+        let options = Options { integrator: integrator.map(str::to_owned), ..Options::default() };
+        prepared(durer::open(file.to_str().expect("a path")), &options)
+    };
+    assert_eq!((opened(None).integrator_name.as_str(), depth(&opened(None))), ("path", 8.into()));
+    assert_eq!(depth(&opened(Some("whitted"))), 10);
 }

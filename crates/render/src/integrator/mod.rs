@@ -147,6 +147,9 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Cast>(),
 ];
 
+/// Those that follow one direction per hit: scene languages agree with us on what their depth means.
+pub const PATHS: &[&str] = &["path", "direct"];
+
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] =
     &["bdpt", "function", "lightpath", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];

@@ -34,8 +34,8 @@ impl Course {
     const MAX_DEPTH: ParamSpec = ParamSpec::new(
         "maxdepth",
         ParamType::Int,
-        ParamDefault::Int(5),
-        "Bounces at most; 1 is direct light.",
+        ParamDefault::Int(8),
+        "Bounces at most; 1 is direct light. 5 where a pbrt file is silent, as in pbrt-v4.",
     )
     .range(0.0, 10_000.0);
     const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
