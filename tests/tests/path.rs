@@ -206,3 +206,31 @@ fn files_without_integrator_are_path_traced_as_deep_as_their_language_has_it() {
     assert_eq!((opened(None).integrator_name.as_str(), depth(&opened(None))), ("path", 8.into()));
     assert_eq!(depth(&opened(Some("whitted"))), 10);
 }
+
+#[test]
+fn what_is_there_in_part_hides_reflects_and_shines_in_part() {
+    // A black disk of which a quarter is there hides a quarter of the sky.
+    let black = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+    let disk = |alpha: &str| format!("Shape \"disk\" \"float radius\" 9 {alpha}\n");
+    let quarter = disk("\"float alpha\" 0.25");
+    let seen = |world: &str, integrator: &str| mean(&picture(AFAR, integrator, world, 256));
+    for integrator in ["\"path\"", "\"direct\"", "\"whitted\" \"float mincontribution\" 0"] {
+        let found = seen(&format!("{WHITE_SKY}{black}{quarter}"), integrator);
+        assert!((found - 0.75).abs() < 1e-2, "{integrator}: {found}");
+        let lamp =
+            format!("AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" true {black}{quarter}");
+        let found = seen(&lamp, integrator);
+        assert!((found - 0.5).abs() < 1e-3, "{integrator}: {found}");
+    }
+    // So it does with a texture, of which half is holes; and a mirror, a metal or glass has holes as well.
+    let half = "Texture \"holes\" \"float\" \"checkerboard\" \"float tex1\" 0 \"float tex2\" 1 \"float uscale\" 64 \
+                \"float vscale\" 64\n";
+    for material in ["mirror\" \"rgb reflectance\" [0 0 0]", "diffuse\" \"rgb reflectance\" [0 0 0]"] {
+        let world =
+            format!("{WHITE_SKY}{half}Material \"{material}\n{}", disk("\"texture alpha\" \"holes\""));
+        let found = seen(&world, "\"path\"");
+        assert!((found - 0.5).abs() < 3e-2, "{material}: {found}");
+    }
+    let glass = format!("{WHITE_SKY}Material \"conductor\"\n{}", disk("\"float alpha\" 0"));
+    assert!((seen(&glass, "\"path\"") - 1.0).abs() < 1e-6);
+}

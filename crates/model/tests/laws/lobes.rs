@@ -3,7 +3,7 @@ use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
     Blur, Blurred, Bounced, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
-    Reflectance, Sheen, Split,
+    Reflectance, Sheen, Sheet, Split, Tilted, Under, Veil,
 };
 
 /// Grey of a value.
@@ -61,6 +61,33 @@ pub(super) fn bounced(alpha: f32) -> Lobe {
     Lobe::Matte(Matte::Bounced(lost))
 }
 
+/// What Schlick's formula gives glass, on facets of this width.
+fn clear(alpha: f32) -> Glossy {
+    let reflectance = Reflectance::Schlick { f0: grey(0.04), f90: Spectrum::ONE };
+    Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 }
+}
+
+/// A white body below clear facets, and a coat and fibres if they are there.
+pub(super) fn under(alpha: f32, coat: f32, sheen: f32) -> Under {
+    let veil =
+        Veil { coat, coat_alpha: 0.2, coat_normal: Vector3::new(0.36, 0.48, 0.8), sheen, sheen_alpha: 0.3 };
+    Under::new(Spectrum::ONE, &clear(alpha), veil, Vector3::new(0.6, 0.0, 0.8))
+}
+
+/// A white coat whose normal leans this way.
+pub(super) fn tilted(alpha: f32, normal: Vector3) -> Lobe {
+    let reflectance = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    let glossy = Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 };
+    Lobe::Tilted(Tilted { glossy, normal })
+}
+
+/// A rough sheet that reflects nothing.
+pub(super) fn sheet(alpha: f32) -> Lobe {
+    let none = Reflectance::Schlick { f0: Spectrum::BLACK, f90: Spectrum::BLACK };
+    let outside = Glossy { reflectance: none, ..clear(alpha) };
+    Lobe::Sheet(Sheet::below(&outside, Spectrum::ONE))
+}
+
 /// Lobes that spread, wide enough for the cells of a histogram.
 pub(super) fn spread() -> Vec<Lobe> {
     let round = Facets::round;
@@ -92,6 +119,12 @@ pub(super) fn spread() -> Vec<Lobe> {
         layered(round(0.3), round(0.2)),
         layered(round(0.0), brushed(0.3, 0.15)),
         layered(brushed(0.2, 0.4), round(0.0)),
+        Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
+        Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
+        Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
+        tilted(0.25, Vector3::new(0.36, 0.48, 0.8)),
+        tilted(0.4, Vector3::new(-0.28, 0.0, 0.96)),
+        sheet(0.3),
     ]
 }
 
@@ -103,6 +136,7 @@ pub(super) fn sharp() -> Vec<Lobe> {
         Lobe::Interface(Interface::clear(1.5)),
         Lobe::PassThrough { weight: grey(0.5) },
         glossy(Facets::round(0.0)),
+        tilted(0.0, Vector3::new(0.0, 0.6, 0.8)),
     ]
 }
 
@@ -125,6 +159,9 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::PassThrough { .. } => 13,
         Lobe::Matte(Matte::Sheen(_)) => 14,
         Lobe::Matte(Matte::Bounced(_)) => 15,
+        Lobe::Matte(Matte::Under(_)) => 16,
+        Lobe::Tilted(_) => 17,
+        Lobe::Sheet(_) => 18,
     }
 }
 
@@ -133,5 +170,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..16).collect::<Vec<_>>());
+    assert_eq!(here, (0..19).collect::<Vec<_>>());
 }
