@@ -179,7 +179,7 @@ impl Lobe {
         match self {
             Self::Glossy(glossy) => Some(*glossy),
             Self::Phong(phong) => Some(phong.look()),
-            Self::Layered(layered) => Some(layered.look()),
+            Self::Layered(layered) => layered.look(),
             Self::Tilted(tilted) => Some(tilted.glossy),
             _ => None,
         }
@@ -202,7 +202,10 @@ impl Lobe {
             Self::Matte(matte) => matte.albedo(),
             Self::Behind { albedo } => *albedo,
             Self::Phong(phong) => phong.specular,
-            Self::Layered(layered) => layered.look().reflectance.ends().0 * layered.scale,
+            Self::Layered(layered) => {
+                let narrow = layered.look().map_or(Spectrum::BLACK, |g| g.reflectance.ends().0 * g.scale);
+                narrow + layered.albedo()
+            }
             Self::Tilted(tilted) => tilted.glossy.reflectance.ends().0 * tilted.glossy.scale,
             Self::Sheet(sheet) => sheet.glossy().reflectance.ends().0 * sheet.glossy().scale,
             Self::Blurred(blurred) => blurred.interface.tint(),

@@ -50,7 +50,7 @@ pub use gloss::Gloss;
 pub use glossy::{Glossy, SMOOTH};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
-pub use layered::{Layered, mirrored_by_layers};
+pub use layered::{Below, Cloud, Layered, mirrored_by_layers};
 pub use lobe::Lobe;
 pub use matte::Matte;
 pub use phong::Phong;
@@ -198,6 +198,7 @@ impl Bsdf {
         let diffuse = |lobe: &Lobe| match lobe {
             Lobe::Diffuse { albedo } | Lobe::Behind { albedo } => Some(*albedo),
             Lobe::Matte(matte) => Some(matte.albedo()),
+            Lobe::Layered(layered) => Some(layered.albedo()),
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);

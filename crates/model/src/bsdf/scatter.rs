@@ -181,9 +181,7 @@ impl Lobe {
             Self::Diffuse { albedo } | Self::Behind { albedo } => albedo.mean(),
             Self::Matte(matte) => matte.directional_albedo(wo).mean(),
             Self::Phong(phong) => phong.specular.mean(),
-            Self::Layered(layered) => {
-                layered.look().reflectance.ends().0.mean() * layered.passed(wo) * layered.scale
-            }
+            Self::Layered(layered) => layered.strength(wo),
             Self::Highlight(highlight) => highlight.specular.mean(),
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
             Self::Tilted(tilted) => tilted.directional_albedo(wo).mean() * tilted.glossy.scale,
@@ -259,7 +257,7 @@ impl Lobe {
             }
             Self::Layered(layered) => {
                 layered.coat = layered.coat.map(blurred);
-                layered.metal = layered.metal.map(blurred);
+                layered.below = layered.below.map(blurred);
             }
             Self::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => *facets = facets.map(blurred),
             _ => {}

@@ -2,8 +2,8 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Blur, Blurred, Bounced, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
-    Reflectance, Sheen, Sheet, Split, Tilted, Under, Veil,
+    Below, Blur, Blurred, Bounced, Cloud, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe,
+    Matte, Phong, Reflectance, Sheen, Sheet, Split, Tilted, Under, Veil,
 };
 
 /// Grey of a value.
@@ -41,17 +41,17 @@ pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
 
 /// Metal below a coat.
 pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
-    Lobe::Layered(Layered {
-        eta: 1.5,
-        coat,
-        thickness: 0.01,
-        metal_eta: grey(0.2),
-        metal_k: grey(2.0),
-        metal,
-        bounces: 5,
-        walks: 1,
-        scale: 1.0,
-    })
+    clouded((coat, 0.01), Cloud::NONE, Below::Metal { eta: grey(0.2), k: grey(2.0), facets: metal }, 5)
+}
+
+/// Something below a coat of these facets and thickness that light scatters in.
+pub(super) fn clouded((coat, thickness): (Facets, f32), cloud: Cloud, below: Below, bounces: u16) -> Lobe {
+    Lobe::Layered(Layered { eta: 1.5, coat, thickness, cloud, below, bounces, walks: 1, scale: 1.0 })
+}
+
+/// Particles of this albedo and asymmetry.
+fn cloud(albedo: f32, g: f32) -> Cloud {
+    Cloud::new(grey(albedo), g)
 }
 
 /// What white facets of this width lose.
@@ -119,6 +119,20 @@ pub(super) fn spread() -> Vec<Lobe> {
         layered(round(0.3), round(0.2)),
         layered(round(0.0), brushed(0.3, 0.15)),
         layered(brushed(0.2, 0.4), round(0.0)),
+        clouded((round(0.0), 0.5), cloud(1.0, 0.3), Below::Matte { albedo: grey(0.8) }, 5),
+        clouded((round(0.3), 1.0), cloud(0.9, -0.2), Below::Matte { albedo: grey(0.5) }, 5),
+        clouded(
+            (round(0.2), 0.3),
+            cloud(0.8, 0.6),
+            Below::Metal { eta: grey(0.2), k: grey(2.0), facets: round(0.2) },
+            5,
+        ),
+        clouded(
+            (round(0.0), 0.3),
+            cloud(0.8, 0.0),
+            Below::Metal { eta: grey(0.2), k: grey(2.0), facets: round(0.0) },
+            5,
+        ),
         Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
         Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
         Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
