@@ -26,7 +26,7 @@ mod tests {
     use super::*;
 
     fn better(values: &[f32], exposure: f32) -> Option<f32> {
-        let pixel = |&v: &f32| Pixel { sum: [v; 3], weight: 1.0, ..Pixel::default() };
+        let pixel = |&v: &f32| Pixel { sum: [v; 3], weight: 1.0 };
         better_exposure(&values.iter().map(pixel).collect::<Vec<_>>(), exposure)
     }
 

@@ -7,6 +7,7 @@
 /// Nodes per axis.
 pub(super) const SIZE: usize = 16;
 
+#[expect(clippy::approx_constant, reason = "1.5708 is a share of light here")]
 #[rustfmt::skip]
 pub(super) const TABLE: [[f32; SIZE]; SIZE] = [
     [
