@@ -6,18 +6,22 @@ use crate::math::{
     float::{cos, sin, sqr},
 };
 
-/// The point of the unit disk for a point of the unit square: squares become rings (Shirley and Chiu 1997, "A Low
-/// Distortion Map Between Disk and Square").
+/// The point of the unit disk for a point of the unit square, as a radius with a sign, -1 to 1, and an angle: squares become
+/// rings (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square").
 #[inline]
-pub fn concentric_disk(u: Point2) -> [f32; 2] {
+pub fn concentric_polar(u: Point2) -> (f32, f32) {
     let (x, y) = (2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
-    if x == 0.0 && y == 0.0 {
-        return [0.0, 0.0];
-    }
-    let (r, phi) = match x.abs() > y.abs() {
+    match x.abs() > y.abs() {
+        _ if x == 0.0 && y == 0.0 => (0.0, 0.0),
         true => (x, FRAC_PI_4 * (y / x)),
         false => (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)),
-    };
+    }
+}
+
+/// The same point by its coordinates.
+#[inline]
+pub fn concentric_disk(u: Point2) -> [f32; 2] {
+    let (r, phi) = concentric_polar(u);
     [r * cos(phi), r * sin(phi)]
 }
 
