@@ -151,7 +151,7 @@ fn a_picture_too_bright_to_see_anything_comes_with_the_exposure_that_helps() {
     let place = Place::new().with("b.pbrt", bright);
     let said = place.done("render b.pbrt --spp 1").stderr;
     assert!(said.contains("too bright to see anything: try --exposure -1"), "{said}");
-    for words in ["--exposure -10", "-o b.exr", "--quiet", "--integrator cast"] {
+    for words in ["--exposure -10", "-o b.exr", "--quiet", "--integrator cast --show depth"] {
         let said = place.done(&format!("render b.pbrt --spp 1 {words}")).stderr;
         assert!(!said.contains("try --exposure"), "{words}: {said}");
     }
