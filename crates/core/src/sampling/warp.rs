@@ -1,22 +1,32 @@
 //! From the unit square to where samples are wanted, keeping what lies together together.
-use std::f32::consts::FRAC_PI_4;
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use crate::math::{Point2, Vector3, float::sqr};
 
-/// The point of the unit disk for a point of the unit square: squares become rings (Shirley and Chiu 1997, "A Low
-/// Distortion Map Between Disk and Square").
+/// The point of the unit disk for a point of the unit square, as a radius with a sign, -1 to 1, and an angle: squares become
+/// rings (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square").
+#[inline]
+pub fn concentric_polar(u: Point2) -> (f32, f32) {
+    let (r, angle, is_from_y) = wedge(u);
+    (r, if is_from_y { FRAC_PI_2 - angle } else { angle })
+}
+
+/// The same point by its coordinates.
 #[inline]
 pub fn concentric_disk(u: Point2) -> [f32; 2] {
+    let (r, angle, is_from_y) = wedge(u);
+    let (sin, cos) = sin_cos_of_eighth(angle);
+    if is_from_y { [r * sin, r * cos] } else { [r * cos, r * sin] }
+}
+
+/// Radius with a sign, the angle from the nearer axis, in `[-pi/4, pi/4]`, and whether that is the y axis.
+#[inline]
+fn wedge(u: Point2) -> (f32, f32, bool) {
     let (x, y) = (2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
-    if x == 0.0 && y == 0.0 {
-        return [0.0, 0.0];
-    }
-    if x.abs() > y.abs() {
-        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (y / x));
-        [x * cos, x * sin]
-    } else {
-        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (x / y));
-        [y * sin, y * cos]
+    match x.abs() > y.abs() {
+        _ if x == 0.0 && y == 0.0 => (0.0, 0.0, false),
+        true => (x, FRAC_PI_4 * (y / x), false),
+        false => (y, FRAC_PI_4 * (x / y), true),
     }
 }
 
