@@ -111,6 +111,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     };
     live.scene(|imported| report::print(scene, imported, &args.talk));
     args.warn_about_place(live.address());
+    if let (None, Err(missing)) = (&args.page, durer_page::live()) {
+        tell(&format!("warning: {missing}"));
+    }
     emit(&format!("{}\n", live.url()))?;
     if args.open && !start_browser(&live.url()) {
         tell("warning: no browser could be started: open the address above");
@@ -128,10 +131,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
 
 impl Args {
     fn page(&self) -> PageSource {
-        match &self.page {
-            Some(file) => PageSource::File(file.clone()),
-            None => PageSource::Missing("not built".to_owned()),
-        }
+        self.page.clone().map_or(PageSource::Built, PageSource::File)
     }
 
     /// Says who else may look.

@@ -78,6 +78,10 @@ impl FileAssets {
         }
         Ok(file)
     }
+    /// Whether a file of this name is embedded.
+    pub fn is_embedded(&self, name: &str) -> bool {
+        self.embedded.contains_key(name)
+    }
     /// The files of the folder that were asked for so far.
     pub fn files_read(&self) -> Vec<PathBuf> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()

@@ -307,6 +307,9 @@ impl Director {
         if !changed.is_empty() {
             self.send_forms(&changed);
         }
+        if changed.iter().any(|id| matches!(id, FormId::Camera | FormId::Film)) {
+            self.tell_camera();
+        }
         self.told = None;
     }
 
@@ -450,6 +453,13 @@ impl Director {
         let around = if bounds.is_empty() { 1.0 } else { f64::from(bounds.diagonal().length()) };
         let (camera, frame) = (self.settings.camera(), &self.settings.frame);
         CameraTold::new(camera, frame, &self.prepared, (around, self.is_exact(&self.original)))
+    }
+
+    fn tell_camera(&self) {
+        let mut told = json!(self.camera_told());
+        told["type"] = "camera".into();
+        told["seq"] = self.seq.into();
+        self.send(&told);
     }
 
     fn scene_told(&self) -> serde_json::Value {

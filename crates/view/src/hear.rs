@@ -32,8 +32,6 @@ impl Director {
                 self.settings = self.original.clone();
                 self.changed = FormId::all(&self.settings.desc);
                 (self.effort, self.seq) = (Effort::Again, seq);
-                self.prepare();
-                self.tell_camera();
             }
             Message::Layer { layer } => match Layer::from_word(&layer) {
                 Some(layer) => {
@@ -72,13 +70,6 @@ impl Director {
         }
     }
 
-    fn tell_camera(&self) {
-        let mut told = serde_json::json!(self.camera_told());
-        told["type"] = "camera".into();
-        told["seq"] = self.seq.into();
-        self.send(&told);
-    }
-
     fn hear_camera(&mut self, camera: &CameraMessage) {
         let vector = |v: Option<[f64; 3]>| v.map(DVec3::from_array);
         let complain = |this: &Self, message: &str| {
@@ -115,8 +106,6 @@ impl Director {
                 self.seq = camera.seq;
                 self.effort = self.effort.max(Effort::Retake);
                 self.changed.push(FormId::Camera);
-                self.prepare();
-                self.tell_camera();
             }
             _ => complain(self, "a pose needs eye, forward and up"),
         }

@@ -1,30 +1,24 @@
 //! Where the page comes from, and what is shown where there is none.
+use std::path::PathBuf;
 
-/// Where the page wants a number that is new at each request: scripts and styles without it are not run.
-const NONCE: &str = "__DURER_NONCE__";
-
-/// The page.
+/// The page. Its scripts and styles hold [`durer_page::NONCE_MARKER`], in whose place a number goes that is new at each
+/// request: without it they are not run.
 #[derive(Clone, Debug)]
 pub enum PageSource {
-    /// As it was built, with a marker where a nonce goes.
-    Built(&'static str),
+    /// As it was built.
+    Built,
     /// A file that is read again at each request: for those who work on the page.
-    File(std::path::PathBuf),
-    /// There is none: why, in words.
-    Missing(String),
+    File(PathBuf),
 }
 
 impl PageSource {
     /// What is sent.
     pub(crate) fn html(&self, nonce: &str) -> String {
-        match self {
-            Self::Built(page) => page.replace(NONCE, nonce),
-            Self::File(file) => match std::fs::read_to_string(file) {
-                Ok(page) => page.replace(NONCE, nonce),
-                Err(error) => excuse(&format!("{}: {error}", file.display())),
-            },
-            Self::Missing(why) => excuse(why),
-        }
+        let page = match self {
+            Self::Built => durer_page::live().map(str::to_owned).map_err(|e| e.to_string()),
+            Self::File(file) => std::fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display())),
+        };
+        page.map_or_else(|why| excuse(&why), |page| page.replace(durer_page::NONCE_MARKER, nonce))
     }
 }
 
@@ -42,10 +36,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nonce_goes_everywhere_and_texts_are_no_markup() {
-        let page =
-            PageSource::Built("<script nonce=\"__DURER_NONCE__\"></script><style nonce=\"__DURER_NONCE__\">");
-        assert_eq!(page.html("n1"), "<script nonce=\"n1\"></script><style nonce=\"n1\">");
-        assert!(PageSource::Missing("<script>".to_owned()).html("").contains("&lt;script>"));
+    fn reasons_are_no_markup() {
+        assert!(excuse("<script>").contains("<p>&lt;script></p>"));
+        assert!(PageSource::File("no such file".into()).html("").contains("no such file"));
     }
 }

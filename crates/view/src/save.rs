@@ -1,6 +1,7 @@
 //! Files for the viewer to keep: the picture, and the scene as he changed it.
 use durer::{
     Prepared,
+    export::pbrt::{Film, text},
     film::ToneMap,
     image::PictureFormat,
     picture::{Look, Picture},
@@ -63,10 +64,46 @@ pub(crate) fn file(
             let whole = Picture { scene, prepared, pixels, render: take.busy(), interrupted };
             whole.encode(picture, look).map_err(|e| e.to_string())?
         }
-        SaveFormat::Pbrt => return Err(format!("{}: not written yet", opened.studio.imported.desc.name)),
+        SaveFormat::Pbrt => pbrt(scene, settings, opened)?.into_bytes(),
     };
     let (suffix, mime) = format.suffix_and_mime();
     Ok(File { name: format!("{}.{suffix}", stem(&settings.desc.name)), mime, bytes })
+}
+
+/// The scene as the viewer changed it.
+fn pbrt(scene: &str, settings: &Settings, opened: &Opened) -> Result<String, String> {
+    let Settings { desc, options, camera, .. } = settings;
+    let mut desc = desc.clone();
+    let taken = desc.cameras.get_mut(*camera).ok_or("there is no camera")?;
+    *taken = options.lens.given_to(taken.clone());
+    let view = &opened.prepared.scene.view;
+    let film = Film {
+        width: options.width.unwrap_or(view.width),
+        height: options.height.unwrap_or(view.height),
+        samples: options.samples.or(desc.film.samples).unwrap_or(opened.prepared.settings.samples),
+        sampler: options.sampler.unwrap_or_default(),
+    };
+    let mut remarks = vec![
+        format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION")),
+        "Paths of files start where the original lies: this file belongs there.".to_owned(),
+    ];
+    let mut words = String::new();
+    if options.seed != 0 {
+        words += &format!(" --seed {}", options.seed);
+    }
+    if options.time != 0.0 {
+        words += &format!(" --time-at {}", options.time);
+    }
+    if let Some(shutter) = options.shutter {
+        words += &format!(" --shutter {},{}", shutter.min, shutter.max);
+    }
+    if !words.is_empty() {
+        remarks.push(format!("What scene files do not say: render it with{words}."));
+    }
+    text(&desc, &opened.studio.imported.assets, (film, *camera), &remarks).map_err(|refused| {
+        let list: String = refused.iter().map(|what| format!("\n  {what}")).collect();
+        format!("this scene cannot be written as .pbrt, as the language has no words for it:{list}")
+    })
 }
 
 /// A name that is safe in a header and on every system.

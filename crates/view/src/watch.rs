@@ -81,7 +81,10 @@ impl Opener {
                     revision += 1;
                     let files = stamps(&self.files(&opened.studio.imported));
                     // What changed while it was read is looked at once more.
-                    known = files.into_iter().map(|(file, now)| (file.clone(), known.get(&file).copied().unwrap_or(now))).collect();
+                    known = files
+                        .into_iter()
+                        .map(|(file, now)| (file.clone(), known.get(&file).copied().unwrap_or(now)))
+                        .collect();
                     stage.reopened(opened);
                 }
                 Err(imported) => {

@@ -39,7 +39,7 @@ pub struct LensOptions {
 
 impl LensOptions {
     /// The camera with these parameters in place of those that say the same in its own way.
-    pub(super) fn given_to(self, camera: CameraDesc) -> CameraDesc {
+    pub fn given_to(self, camera: CameraDesc) -> CameraDesc {
         let floats = |name: &str, ty: ValueType, values: &[f32]| Param {
             name: name.to_owned(),
             ty,

@@ -22,7 +22,7 @@ pub(crate) fn serve(scene: &str, options: Options) -> Live {
         options,
         look: Look::default(),
         at: SocketAddr::from(([127, 0, 0, 1], 0)),
-        page: PageSource::Built("<script nonce=\"__DURER_NONCE__\">1</script>"),
+        page: PageSource::File(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/live/page.html").into()),
         describe: Box::new(|imported, least| {
             let said = imported.diagnostics.iter().filter(|d| d.severity >= least);
             said.map(|d| d.message.clone()).collect::<Vec<_>>().join("\n")

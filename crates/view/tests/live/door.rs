@@ -20,7 +20,8 @@ fn the_page_is_sent_to_who_knows_the_token() {
     for part in ["default-src 'none'", "connect-src 'self'", "frame-ancestors 'none'"] {
         assert!(policy.contains(part), "{policy}");
     }
-    for line in ["cache-control: no-store", "x-content-type-options: nosniff", "referrer-policy: no-referrer"] {
+    for line in ["cache-control: no-store", "x-content-type-options: nosniff", "referrer-policy: no-referrer"]
+    {
         assert!(lower.contains(line), "{head}");
     }
     assert!(!lower.contains("access-control"), "{head}");
@@ -62,7 +63,10 @@ fn sockets_are_opened_to_our_own_page_only() {
     ];
     for (path, host, origin, expected) in cases {
         let request = format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n{origin}{upgrade}\r\n");
-        assert_eq!(status(&live, &request.replace("Connection: Upgrade", "Connection: close, Upgrade")), expected);
+        assert_eq!(
+            status(&live, &request.replace("Connection: Upgrade", "Connection: close, Upgrade")),
+            expected
+        );
     }
 }
 

@@ -1,7 +1,12 @@
 //! The picture: coarse at first, in the end that of `durer render`, and another after each change.
 use std::sync::atomic::AtomicBool;
 
-use durer::{Gather, Options, film::Pixel, picture::{Look, Picture}, prepare};
+use durer::{
+    Gather, Options,
+    film::Pixel,
+    picture::{Look, Picture},
+    prepare,
+};
 use serde_json::json;
 
 use crate::client::{Client, serve, small};
@@ -13,18 +18,17 @@ pub(crate) fn rendered(scene: &str, options: &Options) -> Vec<u8> {
     let rendered = prepared.job().render(Gather::Rays, &(), &AtomicBool::new(false));
     let pixels: Vec<Pixel> = rendered.film.pixels();
     let tonemap = Look::usual_tonemap(&prepared.integrator_name);
-    let picture = Picture { scene, prepared: &prepared, pixels, render: Default::default(), interrupted: false };
+    let picture =
+        Picture { scene, prepared: &prepared, pixels, render: Default::default(), interrupted: false };
     picture.develop(Look { exposure: 0.0, tonemap }).rgb8
 }
 
 #[test]
 fn it_refines_to_the_very_picture_that_render_makes() {
-    for (scene, integrator, samples) in [("whitted", "whitted", 4), ("cornell", "path", 70), ("cook", "distributed", 3)] {
-        let options = Options {
-            integrator: Some(integrator.to_owned()),
-            samples: Some(samples),
-            ..small()
-        };
+    for (scene, integrator, samples) in
+        [("whitted", "whitted", 4), ("cornell", "path", 70), ("cook", "distributed", 3)]
+    {
+        let options = Options { integrator: Some(integrator.to_owned()), samples: Some(samples), ..small() };
         let live = serve(scene, options.clone());
         let mut page = Client::new(&live);
         let first = page.frame();
@@ -121,7 +125,10 @@ fn layers_show_what_casting_rays_shows() {
     page.say(&json!({ "type": "layer", "layer": "xray" }));
     assert_eq!(page.text("error")["about"], "layer");
     page.say(&json!({ "type": "layer", "layer": "beauty" }));
-    assert_eq!(page.frame_when(|h| h["layer"] == "beauty" && h["done"] == true).rgb8, rendered("whitted", &small()));
+    assert_eq!(
+        page.frame_when(|h| h["layer"] == "beauty" && h["done"] == true).rgb8,
+        rendered("whitted", &small())
+    );
 }
 
 #[test]
