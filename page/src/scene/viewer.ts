@@ -33,7 +33,7 @@ const MARK_RADIUS = 112;
 export class Viewer {
   readonly space: Space;
   readonly ghosts: Ghosts;
-  readonly machine: Machine;
+  machine: Machine;
   private readonly rig: Rig;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -144,6 +144,7 @@ export class Viewer {
     });
     this.keep(() => {
       const on = store.machine.value;
+      if (on && !this.machine.fits(store.page)) this.rebuildMachine();
       const turned = on !== this.machine.group.visible;
       this.machine.group.visible = on;
       if (on) {
@@ -155,6 +156,16 @@ export class Viewer {
     });
   }
 
+  /** The eye has moved since, or the picture is another. */
+  private rebuildMachine(): void {
+    const { dark, page } = this.store;
+    this.machine.dispose();
+    this.machine = new Machine(page, this.space, this.ghosts);
+    this.machine.size(...this.size);
+    this.machine.casing(machineCasing(dark.peek()));
+    this.scene.add(this.machine.group);
+  }
+
   private recolor(dark: boolean): void {
     const ground = new Color(dark ? 0x15171b : 0xf3f0e9);
     this.scene.background = null;
@@ -163,7 +174,7 @@ export class Viewer {
     // Dark blue needs light around it on dark ground, grey and green something dark on light ground.
     [this.rays, this.rival, this.signs].forEach((set) => set.casing(casing));
     this.signs.casing(dark ? new Color(0, 0, 0) : new Color(1, 1, 1));
-    this.machine.casing(dark ? new Color(0, 0, 0) : new Color(1, 1, 1));
+    this.machine.casing(machineCasing(dark));
     this.ghosts.theme(dark);
     this.invalidate();
   }
@@ -363,4 +374,8 @@ export class Viewer {
     }
     return (1000 * frames) / (performance.now() - began);
   }
+}
+
+function machineCasing(dark: boolean): Color {
+  return dark ? new Color(0, 0, 0) : new Color(1, 1, 1);
 }

@@ -144,20 +144,19 @@ export function createStore(first: Page, looks = createLooks()) {
 
 export type Store = ReturnType<typeof createStore>;
 
-/** Moves the playback on while it plays. */
-export function runPlayback(store: Store): void {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  effect(() => {
-    clearTimeout(timer);
-    if (!store.playing.value) return;
+/** Moves the playback on while it plays, until what it returns is called. */
+export function runPlayback(store: Store): () => void {
+  return effect(() => {
+    if (!store.playing.value) return undefined;
     const at = store.step.value;
     const last = store.plot.value.steps.length - 1;
     const wait = 1000 / store.speed.value;
-    timer = setTimeout(() => {
+    const timer = setTimeout(() => {
       if (at === null) store.go(0);
       else if (at < last) store.go(at + Math.max(1, Math.round(store.speed.peek() / 30)));
       else if (store.loop.peek()) store.go(0);
       else store.playing.value = false;
     }, Math.max(wait, 33));
+    return () => clearTimeout(timer);
   });
 }
