@@ -115,6 +115,10 @@ mod tests {
         assert_eq!(page.matches(NONCE_MARKER).count(), 2);
         assert!(page.contains("<script type=\"module\" nonce=\"__DURER_NONCE__\">"));
         assert!(page.contains("<style nonce=\"__DURER_NONCE__\">") && !page.contains("http-equiv"));
-        assert!(!page.contains("<script src") && !page.contains("<link rel=\"stylesheet\"") && page.len() < 900_000);
+        assert!(
+            !page.contains("<script src")
+                && !page.contains("<link rel=\"stylesheet\"")
+                && page.len() < 900_000
+        );
     }
 }

@@ -11,8 +11,6 @@ export interface Hands {
   pinch(factor: number, at: Place, fine: boolean): void;
   click(at: Place, only: boolean): void;
   hover(at: Place | null): void;
-  /** The fingers are off again. */
-  rest(): void;
 }
 
 /** Pixels that a click may shake. */
@@ -59,7 +57,6 @@ export function attach(canvas: HTMLElement, hands: Hands): () => void {
   const up = (event: PointerEvent): void => {
     if (!fingers.delete(event.pointerId) || fingers.size > 0) return;
     if (travelled <= SHAKE && event.type === "pointerup" && event.button === 0) hands.click(local(event), event.altKey || event.ctrlKey || event.metaKey);
-    hands.rest();
   };
   on("pointerup", up);
   on("pointercancel", up);
