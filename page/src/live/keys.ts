@@ -66,7 +66,7 @@ export function steer(live: Live, key: string, shift: boolean): boolean {
     case ">": live.enlarge(1.5); return true;
     case "0": live.enlarge(null); return true;
     case "r": live.home(null); return true;
-    case "v": if (live.against.peek()) live.unsplit(); else live.split(null); return true;
+    case "v": if (live.against.peek()) live.unsplit(); else live.split(); return true;
     case " ": live.pause(!live.paused.peek()); return true;
     case "enter": live.choose(live.cursor.peek() ?? middle(live)); return true;
     case "x": live.choose(live.cursor.peek() ?? middle(live), true); return true;

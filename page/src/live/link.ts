@@ -13,7 +13,6 @@ export interface Listener {
 export interface Socket {
   binaryType: string;
   readyState: number;
-  onopen: ((event: never) => void) | null;
   onmessage: ((event: { data: unknown }) => void) | null;
   onclose: ((event: { code: number; reason: string }) => void) | null;
   send(text: string): void;

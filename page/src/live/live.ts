@@ -4,6 +4,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { createLooks } from "../state/looks";
 import { dolly, fly, look, orbit, pan, pivotAt, type Pose, type World } from "./camera";
 import type { Socket } from "./link";
+import { createPointing } from "./pointing";
 import { createRays } from "./rays";
 import { createSession, type Session, type Start } from "./session";
 import type { Pick } from "./protocol";
@@ -20,9 +21,6 @@ export type Against = { is: "session"; session: Session } | { is: "image"; image
 /** Radians for a drag as high as the picture. */
 const TURN = 3.4;
 
-/** Milliseconds between questions for what is under the mouse. */
-const HOVER = 90;
-
 export function createLive(make: (query: string) => Socket, start: Start = {}) {
   const looks = createLooks();
   const main = createSession(make, start);
@@ -38,7 +36,7 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
   const divide = signal(0.5);
   const paused = signal(false);
   const cursor = signal<Size | null>(null);
-  const hovered = signal<{ pixel: Size; found: Pick | null } | null>(null);
+  const { hovered, point } = createPointing(main);
   const picked = signal<Pick | null>(null);
   /** The form that was asked for by a click on an object. */
   const shownForm = signal<string | null>(null);
@@ -83,35 +81,6 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
     },
   };
 
-  /** Tells what is at a pixel, as the mouse or the mark comes there. */
-  function point(pixel: Size | null): void {
-    const was = hovered.peek()?.pixel;
-    if (!pixel) hovered.value = null;
-    else if (!was || was[0] !== pixel[0] || was[1] !== pixel[1]) {
-      hovered.value = { pixel, found: null };
-      wonder();
-    }
-  }
-
-  /** Asks what is under the mouse, not too often. */
-  let wondering = false;
-  function wonder(): void {
-    const at = hovered.peek();
-    if (wondering || !at) return;
-    wondering = true;
-    const [x, y] = at.pixel;
-    const told = main.link.ask("pick", { x, y }).then((found) => {
-      const now = hovered.peek();
-      if (now && now.pixel[0] === x && now.pixel[1] === y) hovered.value = { pixel: now.pixel, found };
-    }, () => undefined);
-    const pause = new Promise((done) => setTimeout(done, HOVER));
-    void Promise.all([told, pause]).then(() => {
-      wondering = false;
-      const now = hovered.peek();
-      if (now && !now.found && (now.pixel[0] !== x || now.pixel[1] !== y)) wonder();
-    });
-  }
-
   /** Takes a pixel: what is there, and its rays, unless only the object is asked for. */
   function choose(pixel: Size, only = false): void {
     cursor.value = pixel;
@@ -147,8 +116,14 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
     });
   }
 
+  /** An integrator to compare with if none is named: paths with all others, and the lecture's with paths. */
+  function rivalKind(): string | null {
+    const form = main.forms.peek().get("integrator");
+    return ["path", "whitted"].find((kind) => form?.kinds.includes(kind) && form.kind !== kind) ?? null;
+  }
+
   /** A second picture of the same scene, seen by the same camera. */
-  function split(kind: string | null): void {
+  function split(kind = rivalKind()): void {
     unsplit();
     const from = main.link.session;
     if (!from) return;

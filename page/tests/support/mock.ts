@@ -16,7 +16,7 @@ const BUILT = join(import.meta.dirname ?? __dirname, "../../dist/view.html");
 const FILM: [number, number] = [320, 180];
 const OF = 8;
 
-interface Session { forms: Form[]; camera: { eye: Vec3; forward: Vec3; up: Vec3; exact: boolean }; seq: number; layer: string; samples: number; peer: Peer | null; paused: boolean }
+interface Session { forms: Form[]; camera: { eye: Vec3; forward: Vec3; up: Vec3; exact: boolean }; seq: number; layer: string; samples: number; peer: Peer | null; paused: boolean; drawn: number }
 type Message = Record<string, unknown> & { type: string };
 
 const LAYERS = ["beauty", "depth", "normal", "shading", "albedo", "uv", "id", "cost"];
@@ -100,7 +100,7 @@ export class Mock {
     old?.peer?.close(1008);
     const from = this.sessions.get(url.searchParams.get("from") ?? "");
     const id = old ? asked : randomBytes(6).toString("hex");
-    const session: Session = old ?? { forms: structuredClone(from?.forms ?? mockForms()), camera: structuredClone(from?.camera ?? home()), seq: 0, layer: "beauty", samples: 0, peer, paused: false };
+    const session: Session = old ?? { forms: structuredClone(from?.forms ?? mockForms()), camera: structuredClone(from?.camera ?? home()), seq: 0, layer: "beauty", samples: 0, peer, paused: false, drawn: 0 };
     session.peer = peer;
     session.seq = 0;
     this.sessions.set(id, session);
@@ -141,7 +141,7 @@ export class Mock {
     const [width, height] = [Math.ceil(FILM[0] / coarse), Math.ceil(FILM[1] / coarse)];
     const samples = Math.max(session.samples + 1, 0);
     const done = samples >= OF;
-    this.frame += 1;
+    session.drawn = this.frame += 1;
     const header = Buffer.from(JSON.stringify({
       frame: this.frame, seq: session.seq, revision: this.revision, layer: session.layer, film: FILM, width, height, samples: coarse > 1 ? 0 : samples, of: OF, done,
       ms: 20 * (session.samples + 4), rays_per_s: 2.1e6, white: session.layer === "cost" ? 40 : null, range: session.layer === "depth" ? [3.1, 9] : null,
@@ -152,6 +152,13 @@ export class Mock {
     peer.say({ type: "status", ...this.status(samples) });
   }
   private frame = 0;
+
+  /** The next frame, unless another picture began meanwhile. */
+  private next(session: Session, peer: Peer, after: number): void {
+    if (session.peer !== peer || session.drawn !== after) return;
+    session.samples += 1;
+    this.draw(session, peer);
+  }
 
   /** Balls on a floor; the noise lessens. */
   private shade({ camera: { eye, forward, up }, layer, forms }: Session, u: number, v: number, samples: number): [number, number, number] {
@@ -187,7 +194,7 @@ export class Mock {
     if (!peer) return;
     if (message.type === "ack") {
       this.acks.push(message["frame"] as number);
-      if (session.samples < OF - 1 && !session.paused) setTimeout(() => session.peer === peer && ((session.samples += 1), this.draw(session, peer)), 15);
+      if (message["frame"] === session.drawn && session.samples < OF - 1 && !session.paused) setTimeout(() => this.next(session, peer, session.drawn), 15);
       return;
     }
     this.heard.push(message);

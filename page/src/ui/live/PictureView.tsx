@@ -32,14 +32,14 @@ export function PictureView({ live }: { live: Live }): JSX.Element {
       <div class="tools" role="toolbar" aria-label="Picture">
         <Choice<Hand> label="What dragging does" value={live.hand.value} options={HANDS} onChange={(hand) => (live.hand.value = hand)} />
         <button type="button" title="The scene’s own camera (R)" disabled={exact} onClick={() => live.home(null)}>Reset view</button>
-        <button type="button" title="All of the film, or one pixel of it as one of the screen (0)" aria-pressed={zoom.value !== null}
+        <button type="button" class={zoom.value ? "" : "one"} title="All of the film, or one pixel of it as one of the screen (0)" aria-pressed={zoom.value !== null}
           onClick={() => (zoom.value ? live.enlarge(null) : live.actual())}>{zoom.value ? "Fit" : "1:1"}<span class="hidden">, now {Math.round(scale * 100)} percent</span></button>
         <label class="layer"><span class="hidden">Layer</span>
           <select value={main.layer.value} onChange={(event) => main.show(event.currentTarget.value)}>
             {main.layers.value.map((layer) => <option key={layer} value={layer}>{layer}</option>)}
           </select></label>
         <button type="button" aria-pressed={against.value !== null} title="Compare with another integrator or a picture (V)"
-          onClick={() => (against.value ? live.unsplit() : live.split(null))}>Split</button>
+          onClick={() => (against.value ? live.unsplit() : live.split())}>Split</button>
         <button type="button" aria-pressed={live.paused.value} title="Pause (Space)" onClick={() => live.pause(!live.paused.value)}>{live.paused.value ? "Go on" : "Pause"}</button>
       </div>
     </div>

@@ -45,7 +45,7 @@ function Under({ live }: { live: Live }): JSX.Element {
   return (
     <p class="under" data-pixel={pixel.join(",")}>
       <span class="at">({pixel.join(", ")})</span>
-      {found?.rgb && <span class="numbers">{numbers(found, live.main.layer.value)}</span>}
+      {found?.rgb && <span class="read">{numbers(found, live.main.layer.value)}</span>}
       {found && <Object found={found} live={live} />}
     </p>
   );
