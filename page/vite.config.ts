@@ -52,6 +52,6 @@ export default defineConfig(({ mode }) => {
       chunkSizeWarningLimit: 2000,
       rollupOptions: { input: name, output: { inlineDynamicImports: true } },
     },
-    test: { testTimeout: 120_000, hookTimeout: 120_000, fileParallelism: false },
+    test: { testTimeout: 120_000, hookTimeout: 120_000, fileParallelism: false, expect: { poll: { timeout: 20_000 } } },
   } as UserConfig;
 });

@@ -166,8 +166,9 @@ export class Mock {
     const top: Vec3 = [right[1] * forward[2] - right[2] * forward[1], right[2] * forward[0] - right[0] * forward[2], right[0] * forward[1] - right[1] * forward[0]];
     const d = unit(plus(forward, plus(scaled(right, (2 * u - 1) * 0.58), scaled(top, (1 - 2 * v) * 0.325))));
     let [t, color, normal]: [number, Vec3, Vec3] = [Infinity, [150, 180, 225], [0, 0, 0]];
-    const red = forms.find(({ id }) => id === "material/0")!.params[0]!.value as number[] | null;
-    ([[[0, 0, 0], (red ?? [0.8, 0.1, 0.1]).map((c) => 230 * c)], [[1.8, -0.3, -0.6], [70, 150, 90]], [[-1.7, -0.2, 0.4], [210, 190, 90]]] as [Vec3, Vec3][]).forEach(([center, c], i) => {
+    const given = forms.find(({ id }) => id === "material/0")!.params[0]!.value;
+    const red = Array.isArray(given) ? (given as number[]) : [0.8, 0.1, 0.1];
+    ([[[0, 0, 0], red.map((c) => 230 * c)], [[1.8, -0.3, -0.6], [70, 150, 90]], [[-1.7, -0.2, 0.4], [210, 190, 90]]] as [Vec3, Vec3][]).forEach(([center, c], i) => {
       const r = [1, 0.7, 0.8][i]!;
       const o = sub(eye, center);
       const b = dot(o, d);

@@ -38,13 +38,22 @@ function Entry(props: Entered): JSX.Element {
   switch (param.type) {
     case "bool": return <input id={id} type="checkbox" checked={value === true} onChange={(event) => set(event.currentTarget.checked)} />;
     case "choice": return <Words {...props} words={param.words ?? []} />;
-    case "text": case "file": return <input id={id} type="text" value={typeof value === "string" ? value : ""} onChange={(event) => set(event.currentTarget.value)} />;
+    case "text": case "file": return <TextBox {...props} />;
     case "color": return <Color {...props} />;
     case "color-texture": return <Textured {...props} kind="color" plain={<Color {...props} />} first={[0.5, 0.5, 0.5]} />;
     case "float-texture": return <Textured {...props} kind="float" plain={<Plain {...props} />} first={0.5} />;
     case "point3": case "vector3": return <Triple {...props} />;
     default: return <Plain {...props} />;
   }
+}
+
+function TextBox({ id, value, set }: Entered): JSX.Element {
+  const draft = useSignal<string | null>(null);
+  const enter = (text: string): void => {
+    draft.value = null;
+    set(text);
+  };
+  return <input id={id} type="text" value={draft.value ?? (typeof value === "string" ? value : "")} onInput={(event) => (draft.value = event.currentTarget.value)} onChange={(event) => enter(event.currentTarget.value)} />;
 }
 
 function Words({ id, value, words, set, param }: Entered & { words: string[] }): JSX.Element {
@@ -73,14 +82,20 @@ function Plain(props: Entered): JSX.Element {
 
 function NumberBox({ id, param, at, set, label }: { id?: string; param: Param; at: number | null; set: (x: number) => void; label?: string }): JSX.Element {
   const wrong = useSignal(false);
+  // What is being typed stays, whatever comes from the program meanwhile.
+  const draft = useSignal<string | null>(null);
   const enter = (text: string): void => {
     const x = numberOf(text, param, param.type === "int");
     wrong.value = x === null;
-    if (x !== null && x !== at) set(x);
+    if (x === null) return;
+    draft.value = null;
+    if (x !== at) set(x);
   };
   const arrows = (event: KeyboardEvent): void => {
     if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
     event.preventDefault();
+    draft.value = null;
+    wrong.value = false;
     const now = at ?? 0;
     const to = now + (event.key === "ArrowUp" ? 1 : -1) * stepOf(param, now) * (event.shiftKey ? 10 : 1);
     set(Number(Math.min(Math.max(to, param.min ?? -Infinity), param.max ?? Infinity).toPrecision(7)));
@@ -88,7 +103,8 @@ function NumberBox({ id, param, at, set, label }: { id?: string; param: Param; a
   const range = param.min !== null || param.max !== null ? `${param.min ?? "−∞"} … ${param.max ?? "∞"}` : undefined;
   return (
     <input id={id} class="number" type="text" inputMode="decimal" autocomplete="off" aria-label={label} aria-invalid={wrong.value} title={range}
-      placeholder="auto" value={at === null ? "" : typed(at)} onChange={(event) => enter(event.currentTarget.value)} onKeyDown={arrows} />
+      placeholder="auto" value={draft.value ?? (at === null ? "" : typed(at))} onInput={(event) => (draft.value = event.currentTarget.value)}
+      onChange={(event) => enter(event.currentTarget.value)} onKeyDown={arrows} />
   );
 }
 
