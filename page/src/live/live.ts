@@ -166,6 +166,9 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
     const other = against.value;
     const all = other?.is === "session" ? [main, other.session] : [main];
     for (const { link } of all) if (link.state.value.is === "open") link.send({ type: "pause", paused: still });
+  });
+  // Whoever comes back does not wait.
+  effect(() => {
     if (!hidden.value) main.link.retry();
   });
   addEventListener("online", () => main.link.retry());

@@ -311,6 +311,10 @@ describe("what goes wrong", () => {
     await tab.waitForSelector('[data-about="connection"]');
     expect(await tab.locator(".status").getAttribute("data-state")).toBe("offline");
     expect(await pixelOf(tab, 0.5, 0.9)).toEqual(before);
+    // It does not hammer: after three seconds there were few tries.
+    await tab.waitForTimeout(3000);
+    expect(await tab.evaluate(() => window.durerLive!.main.link.state.value)).toMatchObject({ is: "lost" });
+    expect(await tab.evaluate(() => (window.durerLive!.main.link.state.value as { tries: number }).tries)).toBeLessThan(8);
   });
 
   it("shows the error of a scene that cannot be read again, over the old picture, until it can", async () => {

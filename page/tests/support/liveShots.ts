@@ -11,8 +11,7 @@ const folder = process.env["SHOTS"] ?? "shots";
 const only = process.env["ONLY"];
 mkdirSync(folder, { recursive: true });
 const browser = await launch();
-const mock = process.env["ADDRESS"] ? null : await new Mock(whitted()).start();
-const address = process.env["ADDRESS"] ?? mock!.address;
+let mock: Mock | null = null;
 
 const tab = (name: string) => async (page: Tab): Promise<void> => page.locator(`#tab-${name}`).click();
 const trace = async (page: Tab): Promise<void> => {
@@ -43,6 +42,8 @@ for (const [name, act] of SCENES) {
   for (const [width, height, dark] of sizes) {
     const full = `${width}-${dark ? "dark" : "light"}-${name}`;
     if (only && !full.match(only)) continue;
+    mock = process.env["ADDRESS"] ? null : await new Mock(whitted()).start();
+    const address = process.env["ADDRESS"] ?? mock!.address;
     const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
     const page = await context.newPage();
     page.on("console", (message) => /error|warning/.test(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && console.error(full, message.text()));
@@ -54,7 +55,7 @@ for (const [name, act] of SCENES) {
     await page.waitForTimeout(1300);
     await page.screenshot({ path: join(folder, `${full}.png`) });
     await context.close();
+    mock?.stop();
   }
 }
 await browser.close();
-mock?.stop();
