@@ -15,7 +15,6 @@ mod man;
 mod number;
 mod options;
 mod output;
-mod picture;
 mod progress;
 mod render;
 mod report;
@@ -24,6 +23,7 @@ mod stats;
 mod trace;
 mod usage;
 mod value;
+mod view;
 
 use std::process::ExitCode;
 
@@ -35,6 +35,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render                            the built-in scene, to whitted.png
   durer render room.glb -o room.exr       a file of your own, as linear floats
+  durer view room.glb --open              watch it render, walk through it, change it
   durer trace room.glb --pixel 320,240    the rays that made that pixel, as a tree
   durer explain room.glb --pixel 320,240  the same in words, with the formulas
   durer cost room.glb                     what its picture costs, and where to save
@@ -59,6 +60,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Args>),
+    View(Box<view::Args>),
     Trace(Box<trace::Args>),
     Explain(Box<explain::Args>),
     Cost(Box<cost::Args>),
@@ -80,6 +82,7 @@ fn main() -> ExitCode {
     };
     let done = match cli.command {
         Command::Render(args) => render::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Cost(args) => cost::run(&args),

@@ -18,7 +18,9 @@ pub mod cost;
 mod environment;
 pub mod explain;
 mod options;
+pub mod picture;
 mod prepare;
+mod studio;
 pub mod tree;
 
 pub use durer_accel as accel;
@@ -41,6 +43,7 @@ pub use durer_scene as scene;
 
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
+pub use studio::{Studio, Wanted};
 
 use std::path::Path;
 
