@@ -5,11 +5,13 @@ use durer::glam::DVec3;
 
 use crate::{
     answer::{Question, Traced},
-    director::{Director, outside},
+    change::Undo,
+    director::Director,
     form::{self, Complaint, Effort, FormId},
     layer::Layer,
     message::{CameraMessage, Message, TraceMessage},
     settings::{Settings, camera_called},
+    told::outside,
 };
 
 impl Director {
@@ -29,12 +31,14 @@ impl Director {
             Message::Reset { form: Some(form) } => self.edit(&form, form::reset),
             Message::Reset { form: None } => {
                 let seq = self.seq;
-                self.settings = self.original.clone();
+                let old = std::mem::replace(&mut self.settings, (*self.original).clone());
+                self.undo.push(Undo::All(Box::new(old)));
                 self.changed = FormId::all(&self.settings.desc);
                 (self.effort, self.seq) = (Effort::Again, seq);
             }
             Message::Layer { layer } => match Layer::from_word(&layer) {
                 Some(layer) => {
+                    self.undo.push(Undo::Layer(self.layer));
                     self.layer = layer;
                     self.effort = self.effort.max(Effort::Retake);
                 }
@@ -47,7 +51,7 @@ impl Director {
             Message::Forms { ids } => {
                 let ids: Vec<FormId> = ids.iter().filter_map(|id| id.parse().ok()).take(1000).collect();
                 self.prepare();
-                self.tell_forms(&ids);
+                self.send_forms(&ids);
             }
             Message::Pick(pick) => {
                 self.prepare();
@@ -83,6 +87,7 @@ impl Director {
                         "these directions say nothing: of no length, or parallel, or no numbers",
                     );
                 };
+                self.remember_camera();
                 let placed = self.settings.frame.placed(&pose);
                 let index = self.settings.camera;
                 self.settings.desc.cameras[index].world_from_camera = placed;
@@ -101,8 +106,10 @@ impl Director {
                     return self.complain(&complaint, None);
                 };
                 let there = self.original.desc.cameras[index].world_from_camera.clone();
-                self.settings.desc.cameras[index].world_from_camera = there;
+                self.remember_camera();
                 self.settings.choose_camera(index);
+                self.remember_camera();
+                self.settings.desc.cameras[index].world_from_camera = there;
                 self.seq = camera.seq;
                 self.effort = self.effort.max(Effort::Retake);
                 self.changed.push(FormId::Camera);
@@ -119,6 +126,7 @@ impl Director {
         let Ok(id) = form.parse::<FormId>() else {
             return self.complain(&Complaint::of(form, None, "there is no such form"), None);
         };
+        self.remember(id);
         match edit(id, &mut self.settings, &self.original) {
             Ok(effort) => {
                 self.effort = self.effort.max(effort);
@@ -128,7 +136,7 @@ impl Director {
             }
             Err(complaint) => {
                 self.complain(&complaint, None);
-                self.tell_forms(&[id]);
+                self.send_forms(&[id]);
             }
         }
     }

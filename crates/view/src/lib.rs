@@ -8,6 +8,7 @@
 
 mod answer;
 mod camera;
+mod change;
 mod director;
 mod form;
 mod guard;
@@ -23,6 +24,7 @@ mod settings;
 mod socket;
 mod stage;
 mod take;
+mod told;
 mod turns;
 mod watch;
 
@@ -96,9 +98,9 @@ impl Live {
         listener.set_nonblocking(true)?;
         let guard = Guard::new(listener.local_addr()?).map_err(io::Error::other)?;
         let Config { scene, options, look, page, describe, .. } = config;
-        let opener = Opener { scene: scene.clone(), options, describe };
+        let opener = Opener { scene: scene.clone(), options, look, describe };
         let opened = opener.open(imported, 1).map_err(StartError::Scene)?;
-        let stage = Arc::new(Stage::new(scene, opened, look));
+        let stage = Arc::new(Stage::new(scene, opened));
         let (stop, stopped) = signal::channel(false);
         let server = Server { guard: guard.clone(), stage: Arc::clone(&stage), page, stop: stopped };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;

@@ -70,8 +70,8 @@ pub(crate) async fn run(
     let (mut sink, mut packets) = stream.split();
     let number = stage.numbers.next();
     let (outbox, waiting) = Outbox::new(number);
-    stage.viewers.fetch_add(1, Ordering::Relaxed);
     session.ask(Request::Connect(outbox, resumed));
+    stage.viewer_came();
     let writing = async {
         if let Some((code, reason)) = write(&mut sink, waiting).await {
             let close = CloseFrame { code: CloseCode::from(code), reason: reason.into() };
@@ -105,7 +105,7 @@ pub(crate) async fn run(
         _ = stop.wait_for(|stop| *stop) => Some((1001, "durer stops")),
     };
     session.ask(Request::Disconnect(number));
-    stage.viewers.fetch_sub(1, Ordering::Relaxed);
+    stage.viewer_left();
     if let Some((code, reason)) = end
         && let Ok(mut stream) = sink.reunite(packets)
     {

@@ -9,7 +9,7 @@ use std::{
 
 use durer::{Prepared, Studio};
 
-use crate::{guard::secret, session::Session, settings::Look, socket::Numbers, turns::Turns};
+use crate::{guard::secret, session::Session, settings::Settings, socket::Numbers, turns::Turns};
 
 /// Sessions at once: each keeps a film.
 const MOST_SESSIONS: usize = 16;
@@ -21,6 +21,8 @@ pub(crate) struct Opened {
     pub(crate) studio: Studio,
     /// As it was opened.
     pub(crate) prepared: Arc<Prepared>,
+    /// What every viewer sees at first.
+    pub(crate) original: Arc<Settings>,
     /// Counts how often it was opened.
     pub(crate) revision: u64,
     /// Warnings, in words.
@@ -32,10 +34,8 @@ pub(crate) struct Stage {
     /// The scene as the user named it.
     pub(crate) name: String,
     pub(crate) turns: Turns,
-    /// How pictures are shown at first.
-    pub(crate) look: Look,
     /// Open sockets.
-    pub(crate) viewers: AtomicUsize,
+    viewers: AtomicUsize,
     pub(crate) numbers: Numbers,
     opened: Mutex<Arc<Opened>>,
     /// Why the scene could not be opened again.
@@ -49,11 +49,10 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Stage {
-    pub(crate) fn new(name: String, opened: Opened, look: Look) -> Self {
+    pub(crate) fn new(name: String, opened: Opened) -> Self {
         Self {
             name,
             turns: Turns::default(),
-            look,
             viewers: AtomicUsize::new(0),
             numbers: Numbers::new(),
             opened: Mutex::new(Arc::new(opened)),
@@ -113,6 +112,18 @@ impl Stage {
     /// Ends all sessions.
     pub(crate) fn close(&self) {
         lock(&self.sessions).drain(..).for_each(|session| session.end());
+    }
+
+    /// A socket was opened.
+    pub(crate) fn viewer_came(&self) {
+        self.viewers.fetch_add(1, Ordering::Relaxed);
+        lock(&self.sessions).iter().for_each(|session| session.scene_changed());
+    }
+
+    /// A socket was closed.
+    pub(crate) fn viewer_left(&self) {
+        self.viewers.fetch_sub(1, Ordering::Relaxed);
+        lock(&self.sessions).iter().for_each(|session| session.scene_changed());
     }
 
     /// Open sockets.

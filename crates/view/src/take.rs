@@ -32,7 +32,7 @@ impl Pace {
 
     /// The finest squares of which a look at so many pixels takes a moment.
     fn first_edge(self, pixels: u64) -> u32 {
-        let Some(pace) = self.0 else { return EDGES[1] };
+        let Some(pace) = self.0 else { return EDGES[0] };
         let fits =
             |edge: &&u32| pace * pixels as f64 / f64::from(**edge * **edge) <= FIRST_LOOK.as_secs_f64();
         EDGES[1..4].iter().rev().find(fits).copied().unwrap_or(EDGES[0])

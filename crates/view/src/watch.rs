@@ -15,7 +15,10 @@ use std::{
 
 use durer::{Imported, Options, Studio, scene::Severity};
 
-use crate::stage::{Opened, Stage};
+use crate::{
+    settings::{Look, Settings},
+    stage::{Opened, Stage},
+};
 
 /// Between two looks.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
@@ -25,6 +28,8 @@ pub(crate) struct Opener {
     /// As the user named it.
     pub(crate) scene: String,
     pub(crate) options: Options,
+    /// How its pictures are shown at first.
+    pub(crate) look: Look,
     /// Complaints in words.
     pub(crate) describe: Describe,
 }
@@ -44,7 +49,8 @@ impl Opener {
         let (studio, prepared) = Studio::open(imported, &self.options)?;
         let warnings = (self.describe)(&studio.imported, Severity::Warning);
         let warnings = if warnings.is_empty() { Vec::new() } else { vec![warnings] };
-        Ok(Opened { studio, prepared: Arc::new(prepared), revision, warnings })
+        let original = Arc::new(Settings::new(&studio, self.look));
+        Ok(Opened { studio, prepared: Arc::new(prepared), original, revision, warnings })
     }
 
     /// The files that the scene was read from.

@@ -114,7 +114,7 @@ impl FormId {
     }
 
     /// The node that it is about.
-    fn node(self, settings: &Settings) -> Option<Node> {
+    pub(crate) fn node(self, settings: &Settings) -> Option<Node> {
         let desc = &settings.desc;
         match self {
             Self::Integrator => Some(settings.integrator()),
@@ -127,7 +127,7 @@ impl FormId {
     }
 
     /// Puts a node in the place of [`FormId::node`]; all shapes that share a light go on sharing it.
-    fn put(self, settings: &mut Settings, node: Node) {
+    pub(crate) fn put(self, settings: &mut Settings, node: Node) {
         let camera = settings.camera;
         let desc = &mut settings.desc;
         match self {
