@@ -143,8 +143,8 @@ impl Message {
     /// Whether the picture that is being rendered is of no use any more.
     pub(crate) fn ends_picture(&self) -> bool {
         match self {
-            Self::Camera(_) | Self::Kind { .. } | Self::Reset { .. } | Self::Layer { .. } => true,
-            Self::Set { form, .. } => form != "look",
+            Self::Camera(_) | Self::Kind { .. } | Self::Reset { form: None } | Self::Layer { .. } => true,
+            Self::Set { form, .. } | Self::Reset { form: Some(form) } => form != "look",
             _ => false,
         }
     }

@@ -5,6 +5,7 @@ use durer::{
     film::ToneMap,
     image::PictureFormat,
     picture::{Look, Picture},
+    scene::Data,
 };
 
 use crate::{settings::Settings, stage::Opened, take::Take};
@@ -75,6 +76,7 @@ fn pbrt(scene: &str, settings: &Settings, opened: &Opened) -> Result<String, Str
     let Settings { desc, options, camera, .. } = settings;
     let mut desc = desc.clone();
     let taken = desc.cameras.get_mut(*camera).ok_or("there is no camera")?;
+    let scales = options.lens.focus.is_none();
     *taken = options.lens.given_to(taken.clone());
     let view = &opened.prepared.scene.view;
     let film = Film {
@@ -83,6 +85,16 @@ fn pbrt(scene: &str, settings: &Settings, opened: &Opened) -> Result<String, Str
         samples: options.samples.or(desc.film.samples).unwrap_or(opened.prepared.settings.samples),
         sampler: options.sampler.unwrap_or_default(),
     };
+    if let Some(param) = taken.node.params.get("focuspixel").filter(|_| scales) {
+        // It speaks of the picture that the scene asked for.
+        let by = |now: u32, asked: Option<u32>| asked.map_or(1.0, |asked| now as f32 / asked.max(1) as f32);
+        let by = [by(film.width, desc.film.width), by(film.height, desc.film.height)];
+        let mut param = param.clone();
+        if let Data::Floats(pixel) = &mut param.data {
+            pixel.iter_mut().zip(by).for_each(|(at, by)| *at *= by);
+        }
+        taken.node.params.set(param);
+    }
     let mut remarks = vec![
         format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION")),
         "Paths of files start where the original lies: this file belongs there.".to_owned(),

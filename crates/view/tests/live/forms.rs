@@ -99,14 +99,15 @@ fn materials_lights_and_cameras_can_be_changed() {
     let mut page = Client::new(&live);
     let plain = page.finished();
     let forms = page.hello["forms"].clone();
-    let with = |name: &str| {
-        let has = |f: &&Value| f["params"].as_array().expect("a list").iter().any(|p| p["name"] == name);
+    let with = |family: &str, name: &str| {
+        let named = |f: &&Value| f["params"].as_array().expect("a list").iter().any(|p| p["name"] == name);
+        let has = |f: &&Value| f["family"] == family && named(f);
         let all = forms.as_array().expect("a list").iter();
         all.filter(has).map(|f| f["id"].as_str().expect("an id").to_owned()).next().expect("a form")
     };
     let changes = [
-        (with("reflectance"), "reflectance", json!([0.9, 0.1, 0.1])),
-        (with("L"), "L", json!({ "blackbody": 2000 })),
+        (with("material", "reflectance"), "reflectance", json!([0.9, 0.1, 0.1])),
+        (with("area light", "L"), "L", json!({ "blackbody": 2000 })),
         ("camera".to_owned(), "fov", json!(20)),
     ];
     for (id, name, value) in changes {
@@ -117,6 +118,7 @@ fn materials_lights_and_cameras_can_be_changed() {
         assert!(same, "{id} {name}: {shown}");
         assert_ne!(page.finished().rgb8, plain.rgb8, "{id}");
         page.say(&json!({ "type": "reset", "form": id }));
+        assert_eq!(form(&page.text("forms")["forms"], &id)["changed"], false);
         assert_eq!(page.finished().rgb8, plain.rgb8, "{id} as it was");
     }
 }

@@ -35,15 +35,13 @@ fn it_refines_to_the_very_picture_that_render_makes() {
         assert_eq!(first.head["samples"], 0, "{scene}");
         assert!(first.width < 48 && first.head["film"] == json!([48, 36]), "{}", first.head);
         let mut last = first;
-        let mut seen = 0;
         while last.head["done"] != true {
             let next = page.frame();
             let count = |f: &crate::client::Frame| f.head["samples"].as_u64().expect("a number");
             assert!(count(&next) >= count(&last) && next.width >= last.width);
             assert!(next.head["frame"].as_u64() > last.head["frame"].as_u64());
-            (last, seen) = (next, seen + 1);
+            last = next;
         }
-        assert!(seen >= 2, "{scene}: {seen} frames");
         assert_eq!(last.head["samples"], samples);
         assert_eq!(last.rgb8, rendered(scene, &options), "{scene}");
         let status = page.text("status");

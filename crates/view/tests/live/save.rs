@@ -82,15 +82,25 @@ fn differing(a: &[u8], b: &[u8]) -> usize {
 #[test]
 fn the_saved_scene_is_read_again_as_the_same_picture() {
     let folder = tempfile::tempdir().expect("a folder");
+    let mut written = 0;
     for builtin in durer::builtin::SCENES {
         let live = serve(builtin.name, small());
         let mut page = Client::new(&live);
         let shown = page.finished();
+        let (code, _, why) = save(&live, &page, "pbrt");
+        if code == 409 {
+            // Motions of many keys are our own words.
+            let why = String::from_utf8(why).expect("text");
+            assert!(builtin.text.contains("TransformKeys") && why.contains("moves through"), "{why}");
+            continue;
+        }
         let (text, read) = again(&live, &page, folder.path());
         // The camera's place may differ in the last bit.
         let differing = differing(&shown.rgb8, &read);
         assert!(differing <= 3, "{}: {differing} pixels\n{text}", builtin.name);
+        written += 1;
     }
+    assert!(written >= 8, "{written} scenes");
 }
 
 #[test]
