@@ -91,8 +91,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     })
 }
 
-/// Prepares what `compile` makes of a description; `None` if there was an error. The surroundings that the options ask for
-/// are in the description already, and what they ask of the integrator in its node.
+/// Prepares what `compile` makes of a description that has the surroundings which the options ask for; `None` on errors.
 pub(crate) fn prepared(
     desc: &SceneDesc,
     integrator_node: &Node,

@@ -1,11 +1,14 @@
 //! What the page is told: everything at first, then what changes.
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use durer::{
     Prepared,
     compile::Kept,
     math::Point3,
-    scene::{CameraDesc, TextureValue},
+    scene::{CameraDesc, ShapeDesc, TextureValue},
 };
 use serde_json::{Value, json};
 
@@ -179,12 +182,22 @@ impl Director {
         self.told = Some(Told { when: Instant::now(), state });
     }
 
+    /// The form of the light that a shape sends out: that of the first shape that shares it.
+    fn light_form(&self, shape: usize) -> Option<FormId> {
+        let shapes = &self.settings.desc.shapes;
+        let light = shapes.get(shape)?.area_light.as_ref()?;
+        let shares = |s: &ShapeDesc| s.area_light.as_ref().is_some_and(|other| Arc::ptr_eq(other, light));
+        shapes.iter().position(shares).map(FormId::AreaLight)
+    }
+
     /// What is seen in a pixel.
     pub(crate) fn pick(&self, id: u64, pixel: [u32; 2]) {
         let seen = pick::seen(&self.prepared, pixel);
         match seen {
             Some(mut told) => {
                 told["id"] = id.into();
+                let light = told["light"].as_u64().and_then(|shape| self.light_form(shape as usize));
+                told["light"] = json!(light.map(|form| form.to_string()));
                 told["rgb"] = json!(self.take.mean(pixel));
                 told["samples"] = self.take.samples().into();
                 told["revision"] = self.opened.revision.into();

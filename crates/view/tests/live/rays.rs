@@ -144,6 +144,23 @@ fn picking_says_what_is_there() {
 }
 
 #[test]
+fn picking_a_light_names_its_form() {
+    let live = serve("cornell", small());
+    let mut page = Client::new(&live);
+    // The light in the ceiling is seen somewhere in the upper half of the middle column.
+    let lights: Vec<Value> = (0..18)
+        .map(|y| {
+            page.say(&json!({ "type": "pick", "id": y, "x": 24, "y": y }));
+            page.text("pick")["light"].clone()
+        })
+        .filter(|light| !light.is_null())
+        .collect();
+    let light = lights.first().expect("the light");
+    let forms = page.hello["forms"].as_array().expect("a list");
+    assert!(forms.iter().any(|f| f["id"] == *light && f["family"] == "area light"), "{light}");
+}
+
+#[test]
 fn the_scene_around_the_rays_is_that_of_the_offline_page() {
     let live = serve("whitted", small());
     let mut page = Client::new(&live);
