@@ -101,6 +101,8 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
   }
 
   function showForm(id: string): void {
+    // Of very many materials the program sends only those that are asked for.
+    if (!main.forms.peek().has(id)) main.link.send({ type: "forms", ids: [id] });
     batch(() => {
       side.value = "scene";
       tab.value = id.startsWith("material") ? "materials" : id.includes("light") ? "lights" : "render";

@@ -61,8 +61,10 @@ export interface Form {
   id: string;
   title: string;
   family: string;
-  kind: string;
+  /** Null where there are no kinds. */
+  kind: string | null;
   kinds: string[];
+  doc?: string;
   params: Param[];
   changed: boolean;
 }
@@ -138,6 +140,7 @@ export type ToServer =
   | { type: "set"; form: string; param: string; value: Value | null }
   | { type: "kind"; form: string; kind: string }
   | { type: "reset"; form: string | null }
+  | { type: "forms"; ids: string[] }
   | { type: "layer"; layer: Layer }
   | { type: "pause"; paused: boolean };
 

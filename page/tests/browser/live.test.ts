@@ -81,7 +81,7 @@ describe("the live picture", () => {
     await tab.keyboard.press("ArrowRight");
     await tab.keyboard.press("Shift+ArrowDown");
     await expect.poll(() => tab.locator(".under").getAttribute("data-pixel")).toBe("161,100");
-    expect(await tab.locator(".under .read").textContent()).toBe("17 tests");
+    expect(await tab.locator(".under .read").textContent()).toBe("17 primitives + 23 boxes tested");
     await tab.keyboard.press("Enter");
     await tab.waitForSelector("canvas[data-rays]", { state: "attached" });
     expect(last("trace")).toMatchObject({ x: 161, y: 100 });

@@ -234,7 +234,7 @@ export class Mock {
     const { scene, picture: _, ...page } = this.rays;
     if (message.type === "ghost") return peer.say({ type: "ghost", ...common, scene });
     if (message.type === "pick") {
-      const rgb = session.layer === "cost" ? [17, 17, 17] : [0.25, 0.5, 0.125];
+      const rgb = session.layer === "cost" ? [17, 23, 0] : [0.25, 0.5, 0.125];
       return peer.say({
         type: "pick", ...common, pixel, object: "red ball", index: 0, material: "red", form: "material/0", light: null, t: 4.25, depth: 4, point: [0, 0, 1],
         normal: [0, 0, 1], uv: [0.5, 0.5], primitive: 0, rgb, samples: 3,

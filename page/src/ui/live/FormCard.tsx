@@ -15,12 +15,13 @@ export function FormCard({ session, form, open, name }: { session: Session; form
       {form.kinds.length > 0 && (
         <div class="field kind">
           <label for={`kind-${form.id}`}>{name ?? "kind"}</label>
-          <div class="entry"><select id={`kind-${form.id}`} value={form.kind} onChange={(event) => session.choose(event.currentTarget.value, form.id)}>
-            {!form.kinds.includes(form.kind) && <option value={form.kind}>{form.kind}</option>}
+          <div class="entry"><select id={`kind-${form.id}`} value={form.kind ?? ""} title={form.doc} onChange={(event) => session.choose(event.currentTarget.value, form.id)}>
+            {form.kind !== null && !form.kinds.includes(form.kind) && <option value={form.kind}>{form.kind}</option>}
             {form.kinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
           </select></div><span />
         </div>
       )}
+      {form.doc && form.kinds.length > 0 && <p class="note story-of">{form.doc}</p>}
       {form.params.map((param) => {
         const asked = session.asked(form.id, param.name);
         const value = asked ? asked.value ?? param.default : counts(param);

@@ -52,10 +52,15 @@ function Under({ live }: { live: Live }): JSX.Element {
 }
 
 /** The numbers of a pixel, with their unit. */
-export function numbers({ rgb, depth }: Pick, layer: string): string {
-  if (layer === "depth") return depth === null ? "–" : `${num(depth)} m`;
-  if (layer === "cost") return `${num(rgb![0])} tests`;
-  return rgb!.map((x) => num(x, 3)).join("  ");
+export function numbers({ rgb }: Pick, layer: string): string {
+  const [a = 0, b = 0] = rgb ?? [];
+  switch (layer) {
+    case "depth": return `${num(a)} m deep`;
+    case "cost": return `${count(a)} primitives + ${count(b)} boxes tested`;
+    case "id": return `object ${count(a)}`;
+    case "uv": return `u ${num(a)}  v ${num(b)}`;
+    default: return (rgb ?? []).map((x) => num(x, 3)).join("  ");
+  }
 }
 
 function Object({ found, live }: { found: Pick; live: Live }): JSX.Element {
