@@ -1,17 +1,19 @@
-//! Looks for the built page, `dist/durer.html`, which `cargo xtask page` puts there. Without it everything is built
-//! but the page.
+//! Looks for the built pages, `dist/durer.html` and `dist/view.html`, which `cargo xtask page` puts there. Without them
+//! everything is built but the pages.
 use std::path::Path;
 
 fn main() {
-    println!("cargo::rustc-check-cfg=cfg(page_built)");
     // The folder, which is always there: a file that is missing would run this at every build.
     println!("cargo::rerun-if-changed=dist");
-    if Path::new("dist/durer.html").is_file() {
-        println!("cargo::rerun-if-changed=dist/durer.html");
-        println!("cargo::rustc-cfg=page_built");
-    } else {
-        println!(
-            "cargo::warning=the HTML page is not built, durer will write none: run `cargo xtask page` (needs Node)"
-        );
+    for (file, cfg) in [("dist/durer.html", "page_built"), ("dist/view.html", "live_built")] {
+        println!("cargo::rustc-check-cfg=cfg({cfg})");
+        if Path::new(file).is_file() {
+            println!("cargo::rerun-if-changed={file}");
+            println!("cargo::rustc-cfg={cfg}");
+        } else {
+            println!(
+                "cargo::warning={file} is not built, durer will do without that page: run `cargo xtask page` (needs Node)"
+            );
+        }
     }
 }

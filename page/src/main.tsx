@@ -1,11 +1,11 @@
 // Opens the page: reads the document inside it, restores the state of the address, mounts the views.
-import { effect } from "@preact/signals";
 import { render } from "preact";
 
 import { load, NothingToShow } from "./data/load";
 import type { Viewer } from "./scene/viewer";
 import { keepHash, readHash } from "./state/hash";
 import { listen } from "./state/keys";
+import { followTheme } from "./state/looks";
 import { createStore, runPlayback, type Store } from "./state/store";
 import "./style/base.css";
 import "./style/layout.css";
@@ -16,16 +16,6 @@ import { App } from "./ui/App";
 /** For the browser's console: the store and the 3D view. */
 declare global {
   interface Window { durer?: { store: Store; viewer: Viewer | null } }
-}
-
-function followTheme(store: Store): void {
-  const system = matchMedia("(prefers-color-scheme: dark)");
-  const apply = (): void => {
-    store.dark.value = store.theme.value === "auto" ? system.matches : store.theme.value === "dark";
-    document.documentElement.dataset["theme"] = store.dark.value ? "dark" : "light";
-  };
-  system.addEventListener("change", apply);
-  effect(apply);
 }
 
 async function open(): Promise<void> {
@@ -39,7 +29,7 @@ async function open(): Promise<void> {
     const [x, y] = page.trees[0]!.pixel;
     document.title = `${page.scene.name} (${x}, ${y}) – ray tree`;
     readHash(store, location.hash);
-    followTheme(store);
+    followTheme(store.looks);
     keepHash(store);
     runPlayback(store);
     window.durer = { store, viewer: null };

@@ -1,4 +1,4 @@
-//! `cargo xtask page`: the HTML page, from TypeScript to the file that the program carries, and its tests.
+//! `cargo xtask page`: the HTML pages, from TypeScript to the files that the program carries, and their tests.
 use std::{
     fs,
     path::PathBuf,
@@ -17,6 +17,9 @@ const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
 /// Where Chromium may be; `DURER_CHROMIUM` names another place.
 const CHROMIUM: &[&str] = &["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+
+/// The pages that are built, and what the crate that carries them calls them.
+const PAGES: [(&str, &str); 2] = [("index.html", "durer.html"), ("view.html", "view.html")];
 
 /// Builds the page, or says what is missing.
 pub(crate) fn run() -> anyhow::Result<()> {
@@ -92,13 +95,16 @@ fn build(steps: &mut Steps) -> anyhow::Result<()> {
         fs::write(&stamp, &lock).with_context(|| stamp.display().to_string())?;
     }
     steps.program(&[NPM, "run", "build"], "page", &[])?;
-    let built = fs::read(folder.join("dist").join("index.html")).context("page/dist/index.html")?;
-    let target = root()?.join("crates").join("page").join("dist").join("durer.html");
-    // The same file again would have everything compiled that depends on it.
-    if fs::read(&target).ok().as_deref() != Some(built.as_slice()) {
-        fs::write(&target, &built).with_context(|| target.display().to_string())?;
+    for (name, carried) in PAGES {
+        let from = folder.join("dist").join(name);
+        let built = fs::read(&from).with_context(|| from.display().to_string())?;
+        let target = root()?.join("crates").join("page").join("dist").join(carried);
+        // The same file again would have everything compiled that depends on it.
+        if fs::read(&target).ok().as_deref() != Some(built.as_slice()) {
+            fs::write(&target, &built).with_context(|| target.display().to_string())?;
+        }
+        println!("    {} kB in {}", built.len() / 1000, target.display());
     }
-    println!("    {} kB in {}", built.len() / 1000, target.display());
     Ok(())
 }
 

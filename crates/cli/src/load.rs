@@ -31,15 +31,25 @@ pub(crate) struct Loaded {
 
 pub(crate) fn load(scene: &str, wishes: &Options) -> Loaded {
     let start = Instant::now();
-    let mut imported = absent(scene).unwrap_or_else(|| durer::open(scene));
+    let mut imported = import(scene);
     let load = start.elapsed();
-    let sound = !imported.diagnostics.has_errors();
+    let failure = failure(&imported, wishes);
     let start = Instant::now();
     let prepared = durer::prepare(&mut imported, wishes);
+    Loaded { imported, prepared, failure, load, build: start.elapsed() }
+}
+
+/// Reads a scene; complains about one that is not there with what may have been meant.
+pub(crate) fn import(scene: &str) -> Imported {
+    absent(scene).unwrap_or_else(|| durer::open(scene))
+}
+
+/// What to tell the shell if a scene that was read cannot be prepared.
+pub(crate) fn failure(imported: &Imported, wishes: &Options) -> Exit {
+    let sound = !imported.diagnostics.has_errors();
     // The file is as it should be: the option is not.
     let wrong_option = sound && wishes.camera.as_deref().is_some_and(|c| !has_camera(&imported.desc, c));
-    let failure = if wrong_option { Exit::Usage } else { Exit::Failed };
-    Loaded { imported, prepared, failure, load, build: start.elapsed() }
+    if wrong_option { Exit::Usage } else { Exit::Failed }
 }
 
 /// Whether a camera has this name or index.

@@ -16,7 +16,6 @@ mod man;
 mod number;
 mod options;
 mod output;
-mod picture;
 mod progress;
 mod render;
 mod report;
@@ -25,6 +24,7 @@ mod stats;
 mod trace;
 mod usage;
 mod value;
+mod view;
 
 use std::process::ExitCode;
 
@@ -36,6 +36,7 @@ const EXAMPLES: &str = "\
 Examples:
   durer render                            the built-in scene, to whitted.png
   durer render room.glb -o room.exr       a file of your own, as linear floats
+  durer view room.glb --open              watch it render, walk through it, change it
   durer trace room.glb --pixel 320,240    the rays that made that pixel, as a tree
   durer explain room.glb --pixel 320,240  the same in words, with the formulas
   durer cost room.glb                     what its picture costs, and where to save
@@ -60,6 +61,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Args>),
+    View(Box<view::Args>),
     Trace(Box<trace::Args>),
     Explain(Box<explain::Args>),
     Cost(Box<cost::Args>),
@@ -81,6 +83,7 @@ fn main() -> ExitCode {
     };
     let done = match cli.command {
         Command::Render(args) => render::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Cost(args) => cost::run(&args),

@@ -1,11 +1,13 @@
 //! `durer render`: a scene to picture files.
 use std::{path::PathBuf, time::Instant};
 
+use anyhow::anyhow;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Gather, Id, MediumStack, Output, Prepared, Rendered,
     film::{Tile, ToneMap},
-    image::PictureFormat,
+    image::{PictureFormat, replace_file},
+    picture::{Look, Picture},
 };
 
 use crate::{
@@ -16,7 +18,6 @@ use crate::{
     number::{counted, significant},
     options::{SampleOptions, TalkOptions},
     output::{Destination, destinations},
-    picture::{Look, Picture},
     progress::Bar,
     report,
     stats::{Facts, Seconds, Stats, StatsForm},
@@ -155,10 +156,10 @@ impl Args {
 
     /// The paths of the files that could be written; complains about the others.
     fn write(&self, picture: &Picture<'_>, outputs: &[Destination]) -> Vec<String> {
-        let tonemap = self.tonemap.unwrap_or(default_tonemap(&picture.prepared.integrator_name));
+        let tonemap = self.tonemap.unwrap_or(Look::usual_tonemap(&picture.prepared.integrator_name));
         let look = Look { exposure: self.exposure, tonemap };
         let written = outputs.iter().filter(|output| {
-            let done = picture.write(output, look);
+            let done = write(picture, output, look);
             if let Err(error) = &done {
                 tell(&format!("error: {error:#}"));
             }
@@ -253,9 +254,7 @@ impl Args {
     }
 }
 
-fn default_tonemap(integrator: &str) -> ToneMap {
-    match integrator {
-        "cast" | "whitted" | "distributed" => ToneMap::None,
-        _ => ToneMap::Agx,
-    }
+fn write(picture: &Picture<'_>, to: &Destination, look: Look) -> anyhow::Result<()> {
+    let bytes = picture.encode(to.format, look).map_err(|e| anyhow!("{}: {e}", to.path.display()))?;
+    Ok(replace_file(&to.path, &bytes)?)
 }

@@ -18,14 +18,16 @@ pub mod cost;
 mod environment;
 pub mod explain;
 mod options;
+pub mod picture;
 mod prepare;
+mod studio;
 pub mod tree;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
 pub use durer_draw as draw;
 pub use durer_io::{
-    FileAssets, image,
+    FileAssets, export, image,
     import::{self, FORMATS, Imported},
 };
 pub use durer_model as model;
@@ -41,6 +43,7 @@ pub use durer_scene as scene;
 
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
+pub use studio::{Studio, Wanted};
 
 use std::path::Path;
 

@@ -85,8 +85,21 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         }
         None => &*desc,
     };
-    let integrator_node = integrator_node(desc, options, diagnostics);
-    let integrator = compile::integrator(&integrator_node, diagnostics);
+    let integrator = integrator_node(desc, options, diagnostics);
+    prepared(desc, &integrator, options, diagnostics, |options, diagnostics| {
+        compile::compile(desc, &*assets, options, diagnostics)
+    })
+}
+
+/// Prepares what `compile` makes of a description that has the surroundings which the options ask for; `None` on errors.
+pub(crate) fn prepared(
+    desc: &SceneDesc,
+    integrator_node: &Node,
+    options: &Options,
+    diagnostics: &mut Diagnostics,
+    compile: impl FnOnce(&CompileOptions, &mut Diagnostics) -> Option<Scene>,
+) -> Option<Prepared> {
+    let integrator = compile::integrator(integrator_node, diagnostics);
     let size = picture_size(desc, options, diagnostics);
     let (width, height) = size.unwrap_or(DEFAULT_SIZE);
     let compile_options = CompileOptions {
@@ -98,7 +111,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         lens: options.lens,
         ..CompileOptions::new(width, height)
     };
-    let scene = compile::compile(desc, &*assets, &compile_options, diagnostics);
+    let scene = compile(&compile_options, diagnostics);
     let (mut scene, integrator) = (scene?, integrator?);
     size?;
     check_content(desc, &scene, options.nothing, diagnostics)?;
@@ -114,13 +127,11 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
         crop: options.crop,
         antialias: options.antialias,
     };
-    let integrator_name = registered_word(&integrator_node.kind);
-    let rules = rules(&integrator_node);
     Some(Prepared {
         scene,
         integrator,
-        integrator_name,
-        rules,
+        integrator_name: registered_word(&integrator_node.kind),
+        rules: rules(integrator_node),
         material_names: material_names(desc),
         settings,
     })
@@ -256,7 +267,7 @@ fn material_names(desc: &SceneDesc) -> Vec<String> {
 }
 
 /// The integrator the options ask for, else the scene's, else the default; with the options' limits put in.
-fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Node {
+pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnostics) -> Node {
     let of_scene = desc.integrator.clone();
     let mut node = match (&options.integrator, of_scene) {
         (Some(kind), Some(node)) if node.kind == *kind => node,

@@ -3,7 +3,7 @@
 //! A scene file is hostile until proven otherwise: a path that leads out of its folder (absolute, `..`, a symbolic
 //! link) is refused, and lengths are checked before anything is read or decoded.
 use std::{
-    collections::{BTreeMap, HashMap},
+    collections::{BTreeMap, BTreeSet, HashMap},
     fs::File,
     io::{ErrorKind, Read},
     path::{Path, PathBuf},
@@ -24,6 +24,8 @@ pub struct FileAssets {
     images: Cache<Image>,
     meshes: Cache<Mesh>,
     listings: Cache<HashMap<String, String>>,
+    /// Files that were asked for and found.
+    found: Mutex<BTreeSet<PathBuf>>,
 }
 
 /// Names in a folder that are looked through for one that differs in letter case alone.
@@ -44,6 +46,7 @@ impl FileAssets {
             images: Cache::default(),
             meshes: Cache::default(),
             listings: Cache::default(),
+            found: Mutex::default(),
         }
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
@@ -67,7 +70,21 @@ impl FileAssets {
         let canonical = |p: &Path| p.canonicalize().map_err(|e| io_error(path, &e));
         let file = canonical(&self.folder.join(relative))?;
         // Only the canonical paths tell whether a symbolic link leads out.
-        if file.starts_with(canonical(&self.folder)?) { Ok(file) } else { Err(outside()) }
+        if !file.starts_with(canonical(&self.folder)?) {
+            return Err(outside());
+        }
+        if file.is_file() {
+            self.found.lock().unwrap_or_else(PoisonError::into_inner).insert(file.clone());
+        }
+        Ok(file)
+    }
+    /// Whether a file of this name is embedded.
+    pub fn is_embedded(&self, name: &str) -> bool {
+        self.embedded.contains_key(name)
+    }
+    /// The files of the folder that were asked for so far.
+    pub fn files_read(&self) -> Vec<PathBuf> {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
     }
     /// The path of the file in the folder of `path` whose name is that of `path` but for the letter case, if there is
     /// one: models are made on systems that do not tell them apart.

@@ -1,8 +1,9 @@
-//! Files: scene importers, image readers and writers, and the folder a scene may read from.
+//! Files: scene importers and a writer, image readers and writers, and the folder a scene may read from.
 #![forbid(unsafe_code)]
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod assets;
+pub mod export;
 mod gzip;
 pub mod image;
 pub mod import;

@@ -1,7 +1,7 @@
-//! The offline HTML page that shows a ray tree: one file with program, style and data, made from `page/` by
-//! `cargo xtask page`.
+//! The HTML pages, each one file with program and style, made from `page/` by `cargo xtask page`: the offline page that
+//! shows a ray tree, and the live page that `durer view` serves.
 //!
-//! Where it was not built, for want of Node, [`html`] says so and all else of durer works.
+//! Where they were not built, for want of Node, [`html`] and [`live`] say so and all else of durer works.
 #![forbid(unsafe_code)]
 
 use std::{error::Error, fmt};
@@ -12,6 +12,17 @@ const PAGE: Option<&str> = Some(include_str!("../dist/durer.html"));
 /// No page.
 #[cfg(not(page_built))]
 const PAGE: Option<&str> = None;
+
+/// The live page with [`NONCE_MARKER`] at its script and its style.
+#[cfg(live_built)]
+const LIVE: Option<&str> = Some(include_str!("../dist/view.html"));
+/// No live page.
+#[cfg(not(live_built))]
+const LIVE: Option<&str> = None;
+
+/// Stands in the live page at each script and style element, in place of the nonce that the Content-Security-Policy of
+/// the answer names.
+pub const NONCE_MARKER: &str = "__DURER_NONCE__";
 
 /// Where the data goes.
 const MARKER: &str = "__DURER_DATA__";
@@ -43,6 +54,15 @@ pub fn is_built() -> bool {
 pub fn html(data: &[u8]) -> Result<String, NotBuilt> {
     let page = PAGE.ok_or(NotBuilt)?;
     Ok(filled(page, data))
+}
+
+/// The page of `durer view`, with [`NONCE_MARKER`] where a nonce must be put. It has no policy of its own: the answer's
+/// header sets it.
+///
+/// # Errors
+/// If the page was not built.
+pub fn live() -> Result<&'static str, NotBuilt> {
+    LIVE.ok_or(NotBuilt)
 }
 
 /// Puts the data at the marker, and nothing that could end the element around it.
@@ -84,5 +104,21 @@ mod tests {
                 && page.len() < 800_000
         );
         assert!(html(b"H4sI").is_ok_and(|html| html.contains(">H4sI</script>")));
+    }
+
+    #[test]
+    fn the_live_page_runs_under_a_nonce_and_loads_nothing() {
+        let Ok(page) = live() else {
+            assert_eq!(live(), Err(NotBuilt));
+            return;
+        };
+        assert_eq!(page.matches(NONCE_MARKER).count(), 2);
+        assert!(page.contains("<script type=\"module\" nonce=\"__DURER_NONCE__\">"));
+        assert!(page.contains("<style nonce=\"__DURER_NONCE__\">") && !page.contains("http-equiv"));
+        assert!(
+            !page.contains("<script src")
+                && !page.contains("<link rel=\"stylesheet\"")
+                && page.len() < 900_000
+        );
     }
 }

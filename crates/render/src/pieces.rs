@@ -29,7 +29,7 @@ impl Scene {
     /// All of them, as they are placed at `time` seconds.
     pub fn pieces(&self, time: f32) -> Vec<Piece<'_>> {
         let mut pieces = Vec::new();
-        for (instance, target) in (0..).zip(&self.targets) {
+        for (instance, target) in (0..).zip(self.targets.iter()) {
             let moved = || self.accel.instance_transform(instance, time);
             match target {
                 Target::Baked(object, mesh) => pieces.push(Piece {

@@ -69,38 +69,38 @@ pub struct Scene {
     /// What compiling found and took.
     pub report: crate::compile::Report,
     /// What hits belong to.
-    pub objects: Vec<Object>,
+    pub objects: Arc<[Object]>,
     /// Materials, as [`Object::material`] numbers them.
     pub materials: Arc<[Box<dyn Material>]>,
     /// Names of the materials; empty where the description gives none.
-    pub material_names: Vec<String>,
+    pub material_names: Arc<[String]>,
     /// Textures, in the order of the description.
     pub textures: Arc<[Box<dyn Texture>]>,
     /// What the one that wants footprints most wants of them.
     pub(crate) filters: Filters,
     /// Names of the textures.
-    pub texture_names: Vec<String>,
+    pub texture_names: Arc<[String]>,
     /// Lights.
-    pub lights: Vec<Box<dyn Light>>,
+    pub lights: Arc<[Box<dyn Light>]>,
     /// The lights that rays are cast to. PERF: asked for at every hit (bench render).
-    pub(crate) lamps: Vec<u32>,
+    pub(crate) lamps: Arc<[u32]>,
     /// The lights around the scene.
-    pub(crate) surroundings: Vec<u32>,
+    pub(crate) surroundings: Arc<[u32]>,
     /// The lights that rays see which left: those around the scene, and for paths disks like the sun.
-    pub(crate) far: Vec<u32>,
+    pub(crate) far: Arc<[u32]>,
     /// By which one of the lights is chosen that rays can be cast to.
-    pub(crate) chooser: LightChooser,
+    pub(crate) chooser: Arc<LightChooser>,
     /// Names of the lights.
-    pub light_names: Vec<String>,
+    pub light_names: Arc<[String]>,
     /// The camera.
     pub view: View,
     /// The ray-intersection kernel.
-    pub accel: Accel,
-    pub(crate) targets: Vec<Target>,
-    pub(crate) shapes: Vec<PlacedShape>,
-    pub(crate) movers: Vec<PlacedShape>,
+    pub accel: Arc<Accel>,
+    pub(crate) targets: Arc<[Target]>,
+    pub(crate) shapes: Arc<[PlacedShape]>,
+    pub(crate) movers: Arc<[PlacedShape]>,
     /// What fills transparent bodies.
-    pub media: Media,
+    pub media: Arc<Media>,
     /// Whether light goes straight on through anything. PERF: asked by every shadow ray of a path.
     pub(crate) is_passed: bool,
     /// The bodies that the camera is in.
@@ -247,6 +247,34 @@ impl Scene {
                 Some(corners(mesh).map(|p| to_render.point(p)))
             }
             Target::Shapes | Target::Mover(_) => None,
+        }
+    }
+
+    /// The same scene with another camera, which is neither focused nor told what bodies it is in.
+    pub(crate) fn seen_by(&self, view: View) -> Self {
+        Self {
+            view,
+            start: MediumStack::default(),
+            brightest: Default::default(),
+            report: self.report,
+            objects: Arc::clone(&self.objects),
+            materials: Arc::clone(&self.materials),
+            material_names: Arc::clone(&self.material_names),
+            textures: Arc::clone(&self.textures),
+            filters: self.filters,
+            texture_names: Arc::clone(&self.texture_names),
+            lights: Arc::clone(&self.lights),
+            lamps: Arc::clone(&self.lamps),
+            surroundings: Arc::clone(&self.surroundings),
+            far: Arc::clone(&self.far),
+            chooser: Arc::clone(&self.chooser),
+            light_names: Arc::clone(&self.light_names),
+            accel: Arc::clone(&self.accel),
+            targets: Arc::clone(&self.targets),
+            shapes: Arc::clone(&self.shapes),
+            movers: Arc::clone(&self.movers),
+            media: Arc::clone(&self.media),
+            is_passed: self.is_passed,
         }
     }
 

@@ -65,6 +65,10 @@ impl Sources {
     pub fn name(&self, id: SourceId) -> &str {
         self.list.get(id.0 as usize).map_or("", |s| &s.name)
     }
+    /// The names of all texts.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|s| &*s.name)
+    }
     /// The text; empty for an id of another table.
     pub fn text(&self, id: SourceId) -> &str {
         self.list.get(id.0 as usize).map_or("", |s| &s.text)

@@ -46,6 +46,16 @@ export class Machine {
     this.loadPicture();
   }
 
+  /** Whether it stands where this page's eye is, before this page's picture. */
+  fits(page: Page): boolean {
+    return page.scene.camera === this.page.scene.camera && page.picture?.png === this.page.picture?.png;
+  }
+
+  dispose(): void {
+    this.texture.dispose();
+    this.group.removeFromParent();
+  }
+
   /** Point of the frame for a place in the film, in pixels. */
   private onFrame([x, y]: [number, number]): Vector3 {
     const { width, height } = this.page.trees[0]!;

@@ -33,7 +33,7 @@ const MARK_RADIUS = 112;
 export class Viewer {
   readonly space: Space;
   readonly ghosts: Ghosts;
-  readonly machine: Machine;
+  machine: Machine;
   private readonly rig: Rig;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -57,6 +57,9 @@ export class Viewer {
   private movedAt = -Infinity;
   private resting: ReturnType<typeof setTimeout> | undefined;
   private frames = 0;
+  private readonly kept: (() => void)[] = [];
+  private readonly observer = new ResizeObserver(() => this.resize());
+  private gone = false;
 
   constructor(private readonly canvas: HTMLCanvasElement, layer: HTMLElement, private readonly store: Store) {
     // Lines smooth their own edges; many of them would pay dearly for having it done again.
@@ -75,10 +78,25 @@ export class Viewer {
       click: (at) => this.click(at),
       moved: () => store.sitting.peek() && (store.sitting.value = false),
     });
-    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.observer.observe(canvas);
     this.resize();
     this.follow();
     this.look("all", false);
+  }
+
+  /** Does it now and when what it read changes, as long as the view is there. */
+  private keep(what: () => void): void {
+    this.kept.push(effect(what));
+  }
+
+  /** Gives back what the graphics card holds. */
+  dispose(): void {
+    this.kept.forEach((stop) => stop());
+    this.observer.disconnect();
+    clearTimeout(this.resting);
+    this.gone = true;
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   private sets(): FatLines[] {
@@ -109,23 +127,24 @@ export class Viewer {
   /** What changes when the store does. */
   private follow(): void {
     const { store } = this;
-    effect(() => this.recolor(store.dark.value));
-    effect(() => this.rebuild());
-    effect(() => this.emphasize());
-    effect(() => this.advance(store.step.value));
-    effect(() => {
+    this.keep(() => this.recolor(store.dark.value));
+    this.keep(() => this.rebuild());
+    this.keep(() => this.emphasize());
+    this.keep(() => this.advance(store.step.value));
+    this.keep(() => {
       const walk = store.tab.value === "walk" ? store.node.value.walk : null;
       this.boxes.set(walk ? wires(walk, store.walkStep.value ?? walk.length - 1, this.space) : []);
       this.invalidate();
     });
-    effect(() => {
+    this.keep(() => {
       const node = store.node.value;
       if (!store.sitting.value) return this.rig.sits ? this.rig.stand() : undefined;
       const e = ends(node, this.space, this.ghosts);
       if (e) this.rig.sit(e.a, e.b.clone().sub(e.a).normalize(), e.a.distanceTo(e.b));
     });
-    effect(() => {
+    this.keep(() => {
       const on = store.machine.value;
+      if (on && !this.machine.fits(store.page)) this.rebuildMachine();
       const turned = on !== this.machine.group.visible;
       this.machine.group.visible = on;
       if (on) {
@@ -137,6 +156,16 @@ export class Viewer {
     });
   }
 
+  /** The eye has moved since, or the picture is another. */
+  private rebuildMachine(): void {
+    const { dark, page } = this.store;
+    this.machine.dispose();
+    this.machine = new Machine(page, this.space, this.ghosts);
+    this.machine.size(...this.size);
+    this.machine.casing(machineCasing(dark.peek()));
+    this.scene.add(this.machine.group);
+  }
+
   private recolor(dark: boolean): void {
     const ground = new Color(dark ? 0x15171b : 0xf3f0e9);
     this.scene.background = null;
@@ -145,7 +174,7 @@ export class Viewer {
     // Dark blue needs light around it on dark ground, grey and green something dark on light ground.
     [this.rays, this.rival, this.signs].forEach((set) => set.casing(casing));
     this.signs.casing(dark ? new Color(0, 0, 0) : new Color(1, 1, 1));
-    this.machine.casing(dark ? new Color(0, 0, 0) : new Color(1, 1, 1));
+    this.machine.casing(machineCasing(dark));
     this.ghosts.theme(dark);
     this.invalidate();
   }
@@ -292,13 +321,14 @@ export class Viewer {
   }
 
   invalidate(): void {
-    if (this.waiting) return;
+    if (this.waiting || this.gone) return;
     this.waiting = true;
     requestAnimationFrame((now) => this.frame(now));
   }
 
   private frame(now: number): void {
     this.waiting = false;
+    if (this.gone) return;
     const moving = this.rig.tick(now);
     const time = Math.min(420, 700 / this.store.speed.peek());
     if (this.grown < 1) this.grown = Math.min((now - this.growBegan) / time, 1);
@@ -344,4 +374,8 @@ export class Viewer {
     }
     return (1000 * frames) / (performance.now() - began);
   }
+}
+
+function machineCasing(dark: boolean): Color {
+  return dark ? new Color(0, 0, 0) : new Color(1, 1, 1);
 }

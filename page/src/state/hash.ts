@@ -1,7 +1,8 @@
 // The state in the address: a link that opens the page as it is seen.
 import { effect } from "@preact/signals";
 
-import type { Store, Tab, Theme } from "./store";
+import type { Theme } from "./looks";
+import type { Store, Tab } from "./store";
 
 const TABS: Tab[] = ["tree", "ray", "play", "samples", "numbers", "compare", "walk", "machine"];
 

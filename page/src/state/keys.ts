@@ -73,7 +73,7 @@ export function moveSelection(store: Store, key: string): boolean {
 }
 
 /** True where a key has a meaning of its own: all keys in fields, those that move and choose in tabs and sliders. */
-function keeps(target: EventTarget | null, key: string): boolean {
+export function keeps(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.matches("select, textarea, input:not([type=range]):not([type=checkbox])")) return true;
   if ((key === "Enter" || key === " ") && target.matches("input, button, a, summary")) return true;
@@ -93,7 +93,8 @@ export function listen(store: Store, viewer: () => Viewer | null): void {
   });
 }
 
-function act(store: Store, viewer: Viewer | null, key: string): boolean {
+/** Does what a key means for the rays; false if it means nothing. */
+export function act(store: Store, viewer: Viewer | null, key: string): boolean {
   if (moveSelection(store, key)) return true;
   const at = store.step.value;
   switch (key) {

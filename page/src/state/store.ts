@@ -3,22 +3,23 @@ import { batch, computed, effect, signal } from "@preact/signals";
 
 import { compare, type Pair } from "../data/compare";
 import { firstFolds, grove, pathTo, rows, type Grove, type Order } from "../data/forest";
-import type { Palette } from "../data/kinds";
 import { script, type March } from "../data/playback";
 import type { Page } from "../data/types";
+import { createLooks } from "./looks";
 
 export type Tab = "tree" | "ray" | "play" | "samples" | "numbers" | "compare" | "walk" | "machine";
-export type Theme = "auto" | "light" | "dark";
 export type TreeStyle = "slide" | "outline";
 
 /** Rows that a tree may open with; more is folded. */
 const MOST_ROWS = 400;
 
-export function createStore(page: Page) {
-  const groves: (Grove | undefined)[] = [];
-  const others: (Grove | undefined)[] = [];
-  const groveOf = (index: number): Grove => (groves[index] ??= grove(page.trees[index]!));
-  const otherOf = (index: number): Grove => (others[index] ??= grove(page.other!.trees[index]!));
+export function createStore(first: Page, looks = createLooks()) {
+  const shown = signal(first);
+  // Read with each page: what follows from trees is found once for each.
+  const groves = computed(() => shown.value.trees.map((): Grove | undefined => undefined));
+  const others = computed(() => (shown.value.other?.trees ?? []).map((): Grove | undefined => undefined));
+  const groveOf = (index: number): Grove => (groves.value[index] ??= grove(shown.value.trees[index]!));
+  const otherOf = (index: number): Grove => (others.value[index] ??= grove(shown.value.other!.trees[index]!));
 
   const treeIndex = signal(0);
   const selected = signal(0);
@@ -27,9 +28,6 @@ export function createStore(page: Page) {
   const order = signal<Order>("recorded");
   const treeStyle = signal<TreeStyle>("slide");
   const tab = signal<Tab>("ray");
-  const theme = signal<Theme>("auto");
-  const dark = signal(false);
-  const palette = signal<Palette>("lecture");
   const march = signal<March>("recursion");
   /** Step of the playback; null shows all rays. */
   const step = signal<number | null>(null);
@@ -42,8 +40,9 @@ export function createStore(page: Page) {
   const machineAt = signal<[number, number] | null>(null);
   const sitting = signal(false);
   const walkStep = signal<number | null>(null);
-  const help = signal(false);
-  const said = signal("");
+
+  /** Asks for a sample whose rays are not in this page, where there is somebody to ask. */
+  const ask = signal<((sample: number) => void) | null>(null);
 
   const g = computed(() => groveOf(treeIndex.value));
   const node = computed(() => g.value.nodes[selected.value] ?? g.value.nodes[0]!);
@@ -51,15 +50,16 @@ export function createStore(page: Page) {
   const shownRows = computed(() => rows(g.value, folded.value, order.value));
   const plot = computed(() => script(g.value, march.value));
   const rival = computed<Grove | null>(() => {
-    if (!page.other || page.other.trees.length === 0) return null;
+    const { other } = shown.value;
+    if (!other || other.trees.length === 0) return null;
     const sample = g.value.tree.sample;
-    const same = page.other.trees.findIndex((tree) => tree.sample === sample);
+    const same = other.trees.findIndex((tree) => tree.sample === sample);
     return same < 0 ? (treeIndex.value === 0 ? otherOf(0) : null) : otherOf(same);
   });
   const pairs = computed<Pair[]>(() => (rival.value ? compare(g.value, rival.value, g.value.tree.diff) : []));
 
   function chooseTree(index: number): void {
-    if (!page.trees[index] || index === treeIndex.peek()) return;
+    if (!shown.peek().trees[index] || index === treeIndex.peek()) return;
     batch(() => {
       treeIndex.value = index;
       selected.value = 0;
@@ -68,6 +68,24 @@ export function createStore(page: Page) {
       playing.value = false;
       walkStep.value = null;
       folded.value = firstFolds(groveOf(index), MOST_ROWS);
+    });
+  }
+
+  /** Shows another page of the same scene; the sample and the ray stay chosen where they are there again. */
+  function replace(next: Page, sample = g.peek().tree.sample): void {
+    const was = node.peek();
+    batch(() => {
+      shown.value = next;
+      treeIndex.value = Math.max(next.trees.findIndex((tree) => tree.sample === sample), 0);
+      const same = next.trees[treeIndex.peek()]!.nodes[was.id];
+      selected.value = same && same.kind === was.kind && same.parent === was.parent ? was.id : 0;
+      hovered.value = null;
+      step.value = null;
+      playing.value = false;
+      walkStep.value = null;
+      machineAt.value = null;
+      folded.value = firstFolds(groveOf(treeIndex.peek()), MOST_ROWS);
+      if (!next.other && tab.peek() === "compare") tab.value = "ray";
     });
   }
 
@@ -114,35 +132,31 @@ export function createStore(page: Page) {
     });
   }
 
-  /** Tells people who listen to the page. */
-  function say(text: string): void {
-    said.value = "";
-    queueMicrotask(() => (said.value = text));
-  }
-
   return {
-    page, groveOf, treeIndex, selected, hovered, folded, order, treeStyle, tab, theme, dark, palette, march, step, playing,
-    speed, loop, bundle, machine, machineAt, sitting, walkStep, help, said, g, node, path, shownRows, plot, rival, pairs,
-    chooseTree, select, fold, foldAll, go, say,
+    get page(): Page {
+      return shown.value;
+    },
+    ...looks, looks, groveOf, treeIndex, selected, hovered, folded, order, treeStyle, tab, march, step, playing, speed, loop,
+    bundle, machine, machineAt, sitting, walkStep, g, node, path, shownRows, plot, rival, pairs, ask,
+    chooseTree, replace, select, fold, foldAll, go,
   };
 }
 
 export type Store = ReturnType<typeof createStore>;
 
-/** Moves the playback on while it plays. */
-export function runPlayback(store: Store): void {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  effect(() => {
-    clearTimeout(timer);
-    if (!store.playing.value) return;
+/** Moves the playback on while it plays, until what it returns is called. */
+export function runPlayback(store: Store): () => void {
+  return effect(() => {
+    if (!store.playing.value) return undefined;
     const at = store.step.value;
     const last = store.plot.value.steps.length - 1;
     const wait = 1000 / store.speed.value;
-    timer = setTimeout(() => {
+    const timer = setTimeout(() => {
       if (at === null) store.go(0);
       else if (at < last) store.go(at + Math.max(1, Math.round(store.speed.peek() / 30)));
       else if (store.loop.peek()) store.go(0);
       else store.playing.value = false;
     }, Math.max(wait, 33));
+    return () => clearTimeout(timer);
   });
 }

@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 
 import { count, num, tuple } from "../data/number";
+import type { Looks } from "../state/looks";
 import type { Store } from "../state/store";
 import { Swatch } from "./parts";
 
@@ -17,18 +18,25 @@ export function Header({ store }: { store: Store }): JSX.Element {
         <span class="value"><Swatch rgb={tree.rgb} /><span class="wide-only">{tree.rgb.map((x) => num(x, 3)).join("  ")}</span></span>
       </p>
       <SamplePicker store={store} />
-      <div class="looks">
-        <button type="button" aria-pressed={store.palette.value === "safe"} title="Colours for the colour-blind (C)"
-          onClick={() => (store.palette.value = store.palette.value === "safe" ? "lecture" : "safe")}><Drops /><span class="hidden">Colours for the colour-blind</span></button>
-        <button type="button" aria-pressed={store.dark.value} title="Light or dark (D)"
-          onClick={() => (store.theme.value = store.dark.value ? "light" : "dark")}><Moon /><span class="hidden">Dark</span></button>
-        <button type="button" title="Help (?)" onClick={() => (store.help.value = true)}>?<span class="hidden">Help</span></button>
-      </div>
+      <LookButtons looks={store.looks} />
     </header>
   );
 }
 
-function SamplePicker({ store }: { store: Store }): JSX.Element | null {
+/** Colours, light and help. */
+export function LookButtons({ looks }: { looks: Looks }): JSX.Element {
+  return (
+    <div class="looks">
+      <button type="button" aria-pressed={looks.palette.value === "safe"} title="Colours for the colour-blind (C)"
+        onClick={() => (looks.palette.value = looks.palette.value === "safe" ? "lecture" : "safe")}><Drops /><span class="hidden">Colours for the colour-blind</span></button>
+      <button type="button" aria-pressed={looks.dark.value} title="Light or dark (D)"
+        onClick={() => (looks.theme.value = looks.dark.value ? "light" : "dark")}><Moon /><span class="hidden">Dark</span></button>
+      <button type="button" title="Help (?)" onClick={() => (looks.help.value = true)}>?<span class="hidden">Help</span></button>
+    </div>
+  );
+}
+
+export function SamplePicker({ store }: { store: Store }): JSX.Element | null {
   const trees = store.page.trees;
   if (trees.length < 2) return null;
   const at = store.treeIndex.value;

@@ -1,39 +1,47 @@
 // The help: keys, the mouse, and what the signs mean.
-import type { JSX } from "preact";
+import type { ComponentChildren, JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
 import { lookOf, STOPS } from "../data/kinds";
-import type { Kind } from "../data/types";
-import { HELP } from "../state/keys";
+import { HELP, type Key } from "../state/keys";
+import type { Looks } from "../state/looks";
 import type { Store } from "../state/store";
 import { KindLine } from "./parts";
 
 export function Help({ store }: { store: Store }): JSX.Element {
+  return <HelpSheet looks={store.looks} groups={HELP} hands={HANDS}><Legend store={store} /></HelpSheet>;
+}
+
+const HANDS: [string, string][] = [
+  ["drag, one finger", "turn"], ["right drag, two fingers", "shift"], ["wheel, pinch", "nearer, farther"], ["click, tap", "choose a ray"],
+];
+
+/** Keys, what mouse and fingers do, and before them what the signs mean. */
+export function HelpSheet({ looks, groups, hands, children }: {
+  looks: Looks; groups: { title: string; keys: Key[] }[]; hands: [string, string][]; children: ComponentChildren;
+}): JSX.Element {
   const dialog = useRef<HTMLDialogElement>(null);
-  const open = store.help.value;
+  const open = looks.help.value;
   useEffect(() => {
     if (open && !dialog.current?.open) dialog.current?.showModal();
     if (!open) dialog.current?.close();
   }, [open]);
-  const kinds = [...new Set(store.page.trees.flatMap((tree) => tree.nodes.map((node) => node.kind)))];
-  const stops = [...new Set(store.page.trees.flatMap((tree) => tree.nodes.flatMap((node) => node.stop ?? [])))];
   return (
-    <dialog class="help" ref={dialog} aria-labelledby="help-title" onClose={() => (store.help.value = false)}
-      onClick={(event) => event.target === dialog.current && (store.help.value = false)}>
+    <dialog class="help" ref={dialog} aria-labelledby="help-title" onClose={() => (looks.help.value = false)}
+      onClick={(event) => event.target === dialog.current && (looks.help.value = false)}>
       {open && (
         <div class="sheet">
           <header><h2 id="help-title">How to read and steer</h2>
-            <button type="button" onClick={() => (store.help.value = false)}>Close</button></header>
-          <Legend store={store} kinds={kinds} stops={stops} />
+            <button type="button" onClick={() => (looks.help.value = false)}>Close</button></header>
+          {children}
           <div class="keys">
-            {HELP.map((group) => (
+            {groups.map((group) => (
               <section key={group.title}><h3>{group.title}</h3>
                 <dl>{group.keys.map((key) => [<dt key={key.keys}>{key.keys.split(" ").map((k) => k === "…" ? " … " : <kbd key={k}>{k}</kbd>)}</dt>, <dd>{key.does}</dd>])}</dl>
               </section>
             ))}
             <section><h3>Mouse and fingers</h3>
-              <dl><dt>drag, one finger</dt><dd>turn</dd><dt>right drag, two fingers</dt><dd>shift</dd>
-                <dt>wheel, pinch</dt><dd>nearer, farther</dd><dt>click, tap</dt><dd>choose a ray</dd></dl>
+              <dl>{hands.map(([what, does]) => [<dt key={what}>{what}</dt>, <dd>{does}</dd>])}</dl>
             </section>
           </div>
         </div>
@@ -42,7 +50,9 @@ export function Help({ store }: { store: Store }): JSX.Element {
   );
 }
 
-function Legend({ store, kinds, stops }: { store: Store; kinds: Kind[]; stops: string[] }): JSX.Element {
+export function Legend({ store }: { store: Store }): JSX.Element {
+  const kinds = [...new Set(store.page.trees.flatMap((tree) => tree.nodes.map((node) => node.kind)))];
+  const stops = [...new Set(store.page.trees.flatMap((tree) => tree.nodes.flatMap((node) => node.stop ?? [])))];
   return (
     <div class="legend">
       <ul>{kinds.map((kind) => <li key={kind}><KindLine kind={kind} store={store} /><b>{lookOf(kind).letter}</b> {lookOf(kind).word}</li>)}

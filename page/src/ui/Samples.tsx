@@ -12,12 +12,15 @@ import { Empty, Section, Swatch } from "./parts";
 export function Samples({ store }: { store: Store }): JSX.Element {
   const { values } = store.page;
   if (values.length < 2) return <Empty>This pixel has one sample. With --spp there are more.</Empty>;
-  const recorded = new Map(store.page.trees.map((tree, index) => [tree.sample, index]));
+  const inPage = new Map(store.page.trees.map((tree, index) => [tree.sample, index]));
   const current = store.g.value.tree.sample;
   const choose = (sample: number): void => {
-    const index = recorded.get(sample);
+    const index = inPage.get(sample);
     if (index !== undefined) store.chooseTree(index);
+    else store.ask.value?.(sample);
   };
+  // Where there is somebody to ask, all samples can be had.
+  const recorded = store.ask.value ? new Map(values.map((_, sample) => [sample, sample])) : inPage;
   const mean = store.page.mean;
   return (
     <>

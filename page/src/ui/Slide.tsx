@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
 import { layout, type Layout } from "../data/layout";
+import type { Tree } from "../data/types";
 import type { Store } from "../state/store";
 import { draw, type View } from "./drawSlide";
 
@@ -26,6 +27,7 @@ class Painter {
   private placed: Layout = { placed: [], at: new Int32Array(0), width: 0, height: 0 };
   private waiting = false;
   private fitted = "";
+  private fittedTree: Tree | null = null;
   private readonly endings: (() => void)[] = [];
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly store: Store) {
@@ -58,10 +60,10 @@ class Painter {
   /** Shows all of a small tree, the middle of a large one. */
   private fit(always: boolean): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
-    const key = `${w} ${h} ${this.store.treeIndex.peek()}`;
-    if (w === 0 || (key === this.fitted && !always)) return;
-    const first = key !== this.fitted;
-    this.fitted = key;
+    const [key, { tree }] = [`${w} ${h}`, this.store.g.peek()];
+    const first = key !== this.fitted || tree !== this.fittedTree;
+    if (w === 0 || !(first || always)) return;
+    [this.fitted, this.fittedTree] = [key, tree];
     if (first) {
       const { view, placed } = this;
       view.sx = Math.min(Math.max((w - 60) / Math.max(placed.width, 1), 0.6), 1.6);

@@ -27,6 +27,7 @@ export function Stage({ store }: { store: Store }): JSX.Element {
     } catch (error) {
       failed.value = `There is no 3D view: this browser offers no WebGL. (${String(error)})`;
     }
+    return () => viewer.current?.dispose();
   }, []);
   const label = `3D view of ${store.page.scene.name || "the scene"} with the rays; chosen: ${store.g.value.letters[store.node.value.id]}. Keys: W S Q Z J L I K, plus and minus.`;
   return (

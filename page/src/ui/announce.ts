@@ -1,13 +1,13 @@
-// What screen readers hear when the selection changes.
+// What screen readers hear when the selection changes, until what `announce` returns is called.
 import { effect } from "@preact/signals";
 
 import { lookOf, stopOf } from "../data/kinds";
 import { percent, share } from "../data/number";
 import type { Store } from "../state/store";
 
-export function announce(store: Store): void {
+export function announce(store: Store): () => void {
   let first = true;
-  effect(() => {
+  return effect(() => {
     const [g, node] = [store.g.value, store.node.value];
     if (first) {
       first = false;

@@ -12,4 +12,5 @@ mod table;
 mod trace_files;
 mod traces;
 mod usage;
+mod view;
 mod words;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Output, Prepared, Show,
     film::{Developed, ToneMap, develop, develop_data},
-    image::encode_png,
+    image::{Packing, encode_png},
     integrator::Cast,
 };
 
@@ -44,7 +44,7 @@ impl Thumbnail {
                 develop(width, height, &rgb, 0.0, ToneMap::None)
             }
         };
-        let png = encode_png(width, height, &rgb8).unwrap_or_default();
+        let png = encode_png(width, height, &rgb8, Packing::Small).unwrap_or_default();
         Self { png: format!("data:image/png;base64,{}", STANDARD.encode(png)), width, height }
     }
 }

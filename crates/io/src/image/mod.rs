@@ -13,9 +13,9 @@ mod source;
 
 use durer_scene::{AssetError, Image, Limits};
 
-pub use exr::{ExrPicture, ExrValue, NamedChannel, read_exr_channels, write_exr};
+pub use exr::{ExrPicture, ExrValue, NamedChannel, encode_exr, read_exr_channels, write_exr};
 pub use output::{PictureFormat, WRITERS, WriteError, Writer, replace_file, writer_for};
-pub use png::{encode_png, write_png};
+pub use png::{Packing, encode_png, write_png};
 
 use source::Source;
 

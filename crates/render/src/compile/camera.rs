@@ -1,6 +1,6 @@
 //! The camera of the picture: which one, with what lens, where, and what it focuses on.
 use durer_core::{
-    glam::DAffine3,
+    glam::{DAffine3, DVec3},
     math::{Interval, Motion, Point2},
     spectrum::Basis,
 };
@@ -39,7 +39,7 @@ pub struct LensOptions {
 
 impl LensOptions {
     /// The camera with these parameters in place of those that say the same in its own way.
-    pub(super) fn given_to(self, camera: CameraDesc) -> CameraDesc {
+    pub fn given_to(self, camera: CameraDesc) -> CameraDesc {
         let floats = |name: &str, ty: ValueType, values: &[f32]| Param {
             name: name.to_owned(),
             ty,
@@ -85,12 +85,13 @@ pub(super) fn chosen(
     found.cloned()
 }
 
-/// The camera placed; `things_move` tells whether the picture depends on when it is taken even if the camera rests.
+/// The camera placed, in a render space with this origin or where the camera is when the shutter opens; `things_move` tells
+/// whether the picture depends on when it is taken even if the camera rests.
 pub(super) fn view(
     nodes: &mut nodes::Builder<'_>,
     desc: &CameraDesc,
     options: &CompileOptions,
-    things_move: bool,
+    (things_move, origin): (bool, Option<DVec3>),
 ) -> Option<View> {
     let filter = nodes.filter();
     let mut camera = nodes.camera(&desc.node)?;
@@ -98,7 +99,7 @@ pub(super) fn view(
     let moves = things_move || !desc.world_from_camera.is_still();
     let shutter = shutter(camera.shutter(), moves, options);
     let at_opening = desc.world_from_camera.at(shutter.interval().min.into());
-    let world_from_render = at_opening.translation;
+    let world_from_render = origin.unwrap_or(at_opening.translation);
     let render_from_world = DAffine3::from_translation(-world_from_render);
     let motion = match shutter.sees_one_moment() {
         true => Motion::still(render_from_world * at_opening),

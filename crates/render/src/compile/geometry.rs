@@ -18,7 +18,7 @@ use durer_model::{
 use durer_scene::{Diagnostics, Location, Mesh, SceneDesc, ShapeDesc, ShapeSource};
 use rayon::prelude::*;
 
-use super::report::mesh_bytes;
+use super::{kept::Ground, report::mesh_bytes};
 use crate::{
     Object,
     scene::{PlacedShape, Target},
@@ -36,12 +36,15 @@ impl Object {
 }
 
 /// What becomes of the shapes of a description.
+#[derive(Clone, Debug)]
 pub(super) struct Placed {
-    pub(super) accel: Accel,
-    pub(super) objects: Vec<Object>,
-    pub(super) targets: Vec<Target>,
-    pub(super) shapes: Vec<PlacedShape>,
-    pub(super) movers: Vec<PlacedShape>,
+    pub(super) accel: Arc<Accel>,
+    pub(super) objects: Arc<[Object]>,
+    pub(super) targets: Arc<[Target]>,
+    pub(super) shapes: Arc<[PlacedShape]>,
+    pub(super) movers: Arc<[PlacedShape]>,
+    /// How each of the objects is seen.
+    seen: Arc<[Visibility]>,
     /// Heap memory of the copies of meshes that were moved to where they stand.
     pub(super) placed_mesh_bytes: u64,
     /// What the trees took.
@@ -133,12 +136,21 @@ pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bou
 }
 
 impl Placing<'_> {
-    /// Places all shapes and builds the kernel; `None` if there was something to complain about.
+    /// Places all shapes and builds the kernel; `None` if there was something to complain about. If all objects are seen
+    /// as they were in what is `kept`, that is used.
     pub(super) fn place(
         &self,
-        geometry: Vec<Option<Geometry>>,
+        ground: Arc<Ground>,
+        kept: Option<&Placed>,
         diagnostics: &mut Diagnostics,
     ) -> Option<Placed> {
+        let objects: Arc<[Object]> =
+            self.desc.shapes.iter().enumerate().map(|(index, shape)| self.object(shape, index)).collect();
+        let seen: Arc<[Visibility]> = objects.iter().map(|object| self.seen(object)).collect();
+        if let Some(kept) = kept.filter(|kept| kept.seen == seen) {
+            return Some(Placed { objects, building: Duration::ZERO, ..kept.clone() });
+        }
+        let geometry = Arc::try_unwrap(ground).map_or_else(|shared| shared.built.clone(), |own| own.built);
         let mut uses: HashMap<*const Mesh, u32> = HashMap::new();
         let geometry: Vec<_> =
             self.desc.shapes.iter().zip(geometry).map(|(s, g)| self.geometry(s, g)).collect();
@@ -148,10 +160,8 @@ impl Placing<'_> {
             }
         }
         let mut pending = Pending::default();
-        let mut objects = Vec::new();
-        for (shape, geometry) in self.desc.shapes.iter().zip(geometry) {
-            let object = Id::new(objects.len() as u32);
-            objects.push(self.object(shape, objects.len()));
+        for (index, (shape, geometry)) in self.desc.shapes.iter().zip(geometry).enumerate() {
+            let object = Id::new(index as u32);
             let motion = shape.world_from_object.within(&self.render_from_world);
             if motion.keys().iter().any(|(_, m)| !Transform::from_f64(m).is_invertible()) {
                 diagnostics.error(at(shape), "the shape's transform cannot be inverted: it flattens space");
@@ -169,7 +179,7 @@ impl Placing<'_> {
                 None => {}
             }
         }
-        match self.build(pending, objects) {
+        match self.build(pending, (objects, seen)) {
             Ok(placed) => Some(placed),
             Err(error) => {
                 diagnostics.error(Location::None, error);
@@ -196,13 +206,17 @@ impl Placing<'_> {
     }
 
     /// Hands everything to the kernel; an error says which object it is about.
-    fn build(&self, pending: Pending, objects: Vec<Object>) -> Result<Placed, String> {
+    fn build(
+        &self,
+        pending: Pending,
+        (objects, all_seen): (Arc<[Object]>, Arc<[Visibility]>),
+    ) -> Result<Placed, String> {
         let Pending { meshes, shapes, movers } = pending;
         let (single, several): (Vec<_>, Vec<_>) =
             meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
         let baked = bake(single);
         let placed_mesh_bytes = baked.iter().map(|(_, mesh)| mesh_bytes(mesh)).sum();
-        let seen = |object: Id<Object>| self.seen(&objects[object.index()]);
+        let seen = |object: Id<Object>| all_seen[object.index()];
         let about = |object: Id<Object>| {
             let name = &objects[object.index()].name;
             move |error: BuildError| format!("{name}: {error}")
@@ -246,10 +260,11 @@ impl Placing<'_> {
             kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
             targets.push(Target::Mesh(*object, Arc::clone(mesh)));
         }
-        let accel = kernel.build().map_err(whole)?;
+        let accel = Arc::new(kernel.build().map_err(whole)?);
         let building = start.elapsed();
+        let (targets, shapes) = (targets.into(), shapes.into());
         let movers = movers.into_iter().map(|(mover, _)| mover).collect();
-        Ok(Placed { accel, objects, targets, shapes, movers, placed_mesh_bytes, building })
+        Ok(Placed { accel, objects, targets, shapes, movers, seen: all_seen, placed_mesh_bytes, building })
     }
 
     /// How the triangles of an object are seen.

@@ -7,6 +7,7 @@
 mod automatic;
 mod camera;
 mod geometry;
+mod kept;
 mod lights;
 mod nodes;
 mod report;
@@ -21,14 +22,15 @@ use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{
     light::Light,
     material::Material,
-    shape::Geometry,
     texture::{Filters, Texture},
 };
 use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Media, MediumStack, Scene, integrator::NOT_YET, light_sampler::LightChooser, media};
+use crate::{Media, MediumStack, Scene, View, integrator::NOT_YET, light_sampler::LightChooser, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
+use kept::Ground;
+pub use kept::Kept;
 pub use nodes::integrator;
 pub use report::{GeometryCounts, Report, Times};
 
@@ -76,37 +78,64 @@ pub fn compile(
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
+    compiled(desc, (assets, options), Before::Gone, diagnostics).map(|(scene, _)| scene)
+}
+
+/// What was compiled before, and whether what is compiled now shall be kept for later.
+#[derive(Clone, Copy)]
+enum Before<'k> {
+    /// Nothing is kept.
+    Gone,
+    /// This is the first time.
+    Nothing,
+    /// This is kept.
+    Kept(&'k Kept),
+}
+
+impl<'k> Before<'k> {
+    fn kept(self) -> Option<&'k Kept> {
+        match self {
+            Self::Kept(kept) => Some(kept),
+            Self::Gone | Self::Nothing => None,
+        }
+    }
+}
+
+fn compiled(
+    desc: &SceneDesc,
+    (assets, options): (&dyn Assets, &CompileOptions),
+    before: Before<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Scene, Option<Kept>)> {
     let names = durer_scene::TextureNames::of(&desc.textures);
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
-    let ((mut textures, mut materials), of_textures) = timed(|| (nodes.textures(), nodes.materials()));
-    let (shapes, of_shapes) = timed(|| nodes.shapes());
-    let counts = GeometryCounts::of(desc, &shapes);
-    let bounds = geometry::world_bounds(desc, &shapes);
-    let radius = if bounds.is_empty() { 1.0 } else { 0.5 * bounds.diagonal().length() };
+    let kept = before.kept();
+    let new_textures = |nodes: &mut nodes::Builder<'_>| kept.is_none().then(|| nodes.textures());
+    let ((new_textures, mut materials), of_textures) =
+        timed(|| (new_textures(&mut nodes), nodes.materials()));
+    let (ground, of_shapes) = timed(|| match kept {
+        Some(kept) => kept.ground.clone(),
+        None => Arc::new(Ground::new(&mut nodes)),
+    });
     let camera = camera::chosen(desc, options, nodes.diagnostics)
-        .unwrap_or_else(|| automatic::camera(bounds, options, nodes.diagnostics));
-    let camera = options.lens.given_to(camera);
-    let bends = |g: &Geometry| matches!(g, Geometry::Mesh(mesh) if !mesh.is_still());
-    let moves = desc.shapes.iter().any(|s| !s.world_from_object.is_still())
-        || desc.meshes.iter().any(|mesh| !mesh.is_still())
-        || desc.lights.iter().any(|l| !l.world_from_light.is_still())
-        || shapes.iter().flatten().any(bends);
-    let view = camera::view(&mut nodes, &camera, options, moves);
+        .unwrap_or_else(|| automatic::camera(ground.bounds, options, nodes.diagnostics));
+    let origin = kept.map(|kept| kept.origin);
+    let moves = ground.moves || desc.lights.iter().any(|l| !l.world_from_light.is_still());
+    let view = camera::view(&mut nodes, &options.lens.given_to(camera.clone()), options, (moves, origin));
     let shutter = view.as_ref().map_or(Interval::point(options.time), |view| view.shutter.interval());
     let world_from_camera = camera.world_from_camera.at(shutter.min.into());
-    let origin = world_from_camera.translation;
-    let lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
+    let origin = origin.unwrap_or(world_from_camera.translation);
+    let all_lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
-    // If one of them could not be built, this scene is never looked at.
-    for (texture, described) in textures.iter_mut().zip(&desc.textures) {
-        texture.place(&(render_from_world * described.world_from_texture));
-    }
+    let textures = match (kept, new_textures) {
+        (Some(kept), _) => Arc::clone(&kept.textures),
+        (None, built) => placed(built.unwrap_or_default(), desc, &render_from_world),
+    };
     let default_material = materials.len() as u32;
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let materials: Arc<[Box<dyn Material>]> = materials.into();
-    let textures: Arc<[Box<dyn Texture>]> = textures.into();
     let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
-    let lights = nodes.lights(&lights, (&shapes, &surfaces), &render_from_world, shutter);
+    let lights = nodes.lights(&all_lights, (&ground.built, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,
         render_from_world,
@@ -115,45 +144,86 @@ pub fn compile(
         materials: &materials,
         accel: options.accel,
     };
-    let (placed, of_placing) = timed(|| placing.place(shapes, diagnostics));
+    let (counts, radius) = (ground.counts, ground.radius());
+    // Where nothing is kept, meshes are let go one by one while copies of them are placed.
+    let shared = (!matches!(before, Before::Gone)).then(|| Arc::clone(&ground));
+    let (placed, of_placing) = timed(|| placing.place(ground, kept.map(|kept| &kept.placed), diagnostics));
     let (view, placed) = (view?, placed?);
     let mut report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
     report.texture_bytes = textures.iter().map(|texture| texture.bytes()).sum();
     if diagnostics.has_errors() {
         return None;
     }
-    let lights::Lights { lights, names: light_names, .. } = lights;
-    let those =
-        |is: fn(&dyn Light) -> bool| (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect();
-    let mut scene = Scene {
-        brightest: Default::default(),
-        report,
-        objects: placed.objects,
-        filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
-        textures,
-        texture_names: desc.textures.iter().map(|t| t.name.clone()).collect(),
-        material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
-        lamps: those(|light| !light.surrounds()),
-        surroundings: those(|light| light.surrounds()),
-        far: those(|light| light.surrounds() || light.is_disk()),
-        chooser: LightChooser::new(&lights, radius),
-        lights,
-        light_names,
-        view,
-        accel: placed.accel,
-        targets: placed.targets,
-        shapes: placed.shapes,
-        movers: placed.movers,
-        media: Media::new(&materials),
-        is_passed: materials
-            .iter()
-            .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
-        start: MediumStack::default(),
-        materials,
-    };
-    camera::focus(&mut scene, camera::pixel_scale(desc, options), camera.node.at, diagnostics)?;
+    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, radius };
+    let mut scene = made.scene(desc);
+    let pixel_scale = camera::pixel_scale(desc, options);
+    camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
     scene.start = media::start(&scene);
-    Some(scene)
+    let textures = Arc::clone(&scene.textures);
+    let kept =
+        shared.map(|ground| Kept { camera, lights: all_lights, moves, origin, ground, placed, textures });
+    Some((scene, kept))
+}
+
+/// The textures where they stand. If one of them could not be built, this scene is never looked at.
+fn placed(
+    mut textures: Vec<Box<dyn Texture>>,
+    desc: &SceneDesc,
+    render_from_world: &DAffine3,
+) -> Arc<[Box<dyn Texture>]> {
+    for (texture, described) in textures.iter_mut().zip(&desc.textures) {
+        texture.place(&(*render_from_world * described.world_from_texture));
+    }
+    textures.into()
+}
+
+/// The parts of a scene, compiled.
+struct Made {
+    textures: Arc<[Box<dyn Texture>]>,
+    materials: Arc<[Box<dyn Material>]>,
+    lights: lights::Lights,
+    placed: geometry::Placed,
+    view: View,
+    report: Report,
+    /// Of everything finite, in metres.
+    radius: f32,
+}
+
+impl Made {
+    /// The scene, neither focused nor told which bodies the camera is in.
+    fn scene(self, desc: &SceneDesc) -> Scene {
+        let Self { textures, materials, lights, placed, view, report, radius } = self;
+        let lights::Lights { lights, names: light_names, .. } = lights;
+        let those = |is: fn(&dyn Light) -> bool| {
+            (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect()
+        };
+        Scene {
+            brightest: Default::default(),
+            report,
+            objects: placed.objects,
+            filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
+            textures,
+            texture_names: desc.textures.iter().map(|t| t.name.clone()).collect(),
+            material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
+            lamps: those(|light| !light.surrounds()),
+            surroundings: those(|light| light.surrounds()),
+            far: those(|light| light.surrounds() || light.is_disk()),
+            chooser: Arc::new(LightChooser::new(&lights, radius)),
+            lights: lights.into(),
+            light_names: light_names.into(),
+            view,
+            accel: placed.accel,
+            targets: placed.targets,
+            shapes: placed.shapes,
+            movers: placed.movers,
+            media: Arc::new(Media::new(&materials)),
+            is_passed: materials
+                .iter()
+                .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
+            start: MediumStack::default(),
+            materials,
+        }
+    }
 }
 
 /// What `work` makes, and how long it takes.

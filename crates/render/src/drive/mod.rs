@@ -5,6 +5,7 @@
 
 mod adaptive;
 mod crew;
+mod grow;
 mod part;
 mod pass;
 mod record;
@@ -12,6 +13,7 @@ mod settings;
 mod survey;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
+pub use grow::{Growing, Sparse};
 pub use part::{PartCount, scattered};
 pub use record::KilledMap;
 pub use settings::{Nesting, Settings};
@@ -166,18 +168,7 @@ impl<'a> Job<'a> {
 
     /// Renders until done or until `cancel` is set.
     pub fn render(&self, gather: Gather, progress: &dyn Progress, cancel: &AtomicBool) -> Rendered {
-        let view = &self.scene.view;
-        let mut rendered = Rendered {
-            film: Film::new(view.width, view.height),
-            samples: 0,
-            rays: 0,
-            counters: gather.counters(),
-            bad_samples: 0,
-            first_bad: None,
-            imbalances: ImbalanceTotals::default(),
-            cancelled: false,
-            splits: None,
-        };
+        let mut rendered = Rendered::new(self, gather);
         if let Some(how) = self.adaptive() {
             adaptive::render(self, &how, &Watch { gather, progress, cancel }, &mut rendered);
             return rendered;
@@ -185,7 +176,8 @@ impl<'a> Job<'a> {
         let tiles = self.window().squares(TILE);
         for (first, last) in pass::passes(self.settings.samples) {
             let pass = Pass { samples: first..last, gather, cancel };
-            self.pass(&pass, &tiles, &mut rendered, progress);
+            let finished = |_, done: &TileDone| progress.advance(done.samples, done.rays);
+            self.pass(&pass, (&tiles, cancel), &mut rendered, finished);
             if cancel.load(Ordering::Relaxed) {
                 rendered.cancelled = true;
                 break;
@@ -197,17 +189,24 @@ impl<'a> Job<'a> {
         rendered
     }
 
-    /// Takes the samples of a range everywhere. The tiles of a pass are disjoint: their order does not matter.
-    fn pass(&self, pass: &Pass<'_>, tiles: &[Tile], rendered: &mut Rendered, progress: &dyn Progress) {
+    /// Takes the samples of a range in these tiles, until it is `enough`. The tiles of a pass are disjoint: their order does
+    /// not matter.
+    fn pass(
+        &self,
+        pass: &Pass<'_>,
+        (tiles, enough): (&[Tile], &AtomicBool),
+        rendered: &mut Rendered,
+        finished: impl Fn(Tile, &TileDone) + Sync,
+    ) {
         let shared = Mutex::new(rendered);
-        crew::share_out(tiles, self.settings.threads, pass.cancel, |tile, pixels: &mut Vec<Pixel>| {
+        crew::share_out(tiles, self.settings.threads, enough, |tile, pixels: &mut Vec<Pixel>| {
             lock(&shared).film.read(tile, pixels);
             let done = self.tile(pass, tile, pixels);
             let mut shared = lock(&shared);
             shared.film.write(tile, pixels);
             shared.take(&done);
             drop(shared);
-            progress.advance(done.samples, done.rays);
+            finished(tile, &done);
         });
     }
 
@@ -217,10 +216,10 @@ impl<'a> Job<'a> {
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
         for (y, row) in (tile.y0..).zip(pixels.chunks_exact_mut(width)) {
-            if pass.is_cancelled() {
-                break;
-            }
             for (x, pixel) in (tile.x0..).zip(row) {
+                if pass.is_cancelled() {
+                    return done;
+                }
                 for sample in pass.samples.clone() {
                     let (ray, weight) = self.eye([x, y], sample);
                     match self.take(&cx, ray, &mut out, &mut done) {
@@ -285,6 +284,21 @@ impl TileDone {
 }
 
 impl Rendered {
+    /// Nothing yet.
+    fn new(job: &Job<'_>, gather: Gather) -> Self {
+        Self {
+            film: Film::new(job.scene.view.width, job.scene.view.height),
+            samples: 0,
+            rays: 0,
+            counters: gather.counters(),
+            bad_samples: 0,
+            first_bad: None,
+            imbalances: ImbalanceTotals::default(),
+            cancelled: false,
+            splits: None,
+        }
+    }
+
     fn take(&mut self, done: &TileDone) {
         self.samples += done.samples;
         self.rays += done.rays;

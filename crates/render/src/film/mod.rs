@@ -97,6 +97,17 @@ impl Film {
         self.finished.push(node);
     }
 
+    /// The sum so far of one pixel; `None` if it lies outside.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<Pixel> {
+        let inside = x < self.width && y < self.height;
+        let index = y as usize * self.width as usize + x as usize;
+        let mut all = *self.current.get(index).filter(|_| inside)?;
+        for (_, pixels) in self.finished.iter().rev() {
+            all = pixels[index].merged(&all);
+        }
+        Some(all)
+    }
+
     /// The sums so far.
     pub fn pixels(&self) -> Vec<Pixel> {
         let mut all = self.current.clone();

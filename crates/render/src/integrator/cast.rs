@@ -166,7 +166,7 @@ impl Cast {
             Show::Cost => Value::Data(None),
             Show::Shading => {
                 let mut radiance = s.sent_out() + s.ambient(cx) + s.blurred_sky(cx);
-                let lamps = if s.bsdf.is_sharp() { &[] } else { cx.scene.lamps.as_slice() };
+                let lamps = if s.bsdf.is_sharp() { &[] } else { &cx.scene.lamps[..] };
                 for light in lamps.iter().map(|&light| light as usize) {
                     if let Some((weight, sample)) =
                         s.light(cx, light, &ray.sampler.fork(LIGHT_BRANCH + light as u32), |_| Seen::Branches)

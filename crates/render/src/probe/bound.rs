@@ -40,7 +40,7 @@ impl Scene {
         let of_materials: Vec<Sent> = self.materials.iter().map(|m| m.sent(&cx.shade(), &arriving)).collect();
         let far = self.far.iter().map(|&light| &self.lights[light as usize]);
         let mut most = far.map(|light| light.bound().seen).sum::<f32>();
-        for object in &self.objects {
+        for object in self.objects.iter() {
             let mut sent = of_materials.get(object.material as usize).copied().unwrap_or_default();
             sent.own += object.light.map_or(0.0, |light| self.lights[light as usize].bound().seen);
             let own = sent.bound();

@@ -1,5 +1,6 @@
-//! `cargo xtask bench view`: recording ray trees, and the pages that show them. Figures only: nothing is asserted.
+//! `cargo xtask bench view`: recording ray trees, the pages that show them, and the live page's server. Figures only: nothing is asserted.
 mod browser;
+mod live;
 mod report;
 mod trace;
 
@@ -15,6 +16,8 @@ use crate::{release_program, target_folder};
 const DRAGON: &str = "ply/dragon_vrip.ply.gz";
 /// Light transport that has ray trees.
 const INTEGRATORS: [&str; 2] = ["whitted", "distributed"];
+/// Light transport that is watched live.
+const LIVE_INTEGRATORS: [&str; 2] = ["whitted", "path"];
 
 /// What was asked for.
 pub(crate) struct Options {
@@ -50,6 +53,7 @@ struct Figures {
     commands: Vec<Value>,
     pages: Vec<Value>,
     browser: Vec<Value>,
+    live: Vec<Value>,
     skipped: Vec<String>,
 }
 
@@ -62,7 +66,7 @@ impl Figures {
     fn as_value(&self) -> Value {
         json!({
             "version": 1, "recordings": self.recordings, "commands": self.commands, "pages": self.pages,
-            "browser": self.browser, "skipped": self.skipped,
+            "browser": self.browser, "live": self.live, "skipped": self.skipped,
         })
     }
 }
@@ -78,6 +82,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
         for integrator in INTEGRATORS {
             eprintln!("==> recording {name}, {integrator}");
             figures.recordings.push(record(&recorder, name, scene, integrator)?);
+        }
+    }
+    for (name, scene) in &scenes {
+        for integrator in LIVE_INTEGRATORS {
+            figures.live.push(live::measure(&durer, name, scene, integrator)?);
         }
     }
     let tracer = trace::Tracer { durer, folder, runs: options.runs };

@@ -11,6 +11,9 @@ pub(super) fn as_tables(figures: &Figures) -> String {
     for recording in &figures.recordings {
         recorded(&mut text, recording);
     }
+    for live in &figures.live {
+        watched(&mut text, live);
+    }
     for command in &figures.commands {
         let (scene, output) = (word(command, "/scene"), word(command, "/output"));
         line(&mut text, &format!("durer trace {scene} {output}: {}", seconds(command, "/median")));
@@ -37,6 +40,28 @@ pub(super) fn as_tables(figures: &Figures) -> String {
         line(&mut text, &format!("SKIPPED: {reason}"));
     }
     text
+}
+
+fn watched(text: &mut String, of: &Value) {
+    let (scene, integrator) = (word(of, "/scene"), word(of, "/integrator"));
+    let (loaded, first) = (seconds(of, "/loaded"), seconds(of, "/first_picture"));
+    line(text, &format!("durer view {scene}, {integrator}: {} triangles", of["triangles"]));
+    line(text, &format!("  loaded in {loaded}, first picture {first} after the page was opened"));
+    let (median, worst) = (seconds(of, "/orbit/median"), seconds(of, "/orbit/worst"));
+    let per_second = of["orbit"]["per_second"].as_f64().unwrap_or(f64::NAN);
+    let edge = of["orbit"]["pixels_per_sample_edge"].as_f64().unwrap_or(f64::NAN);
+    line(
+        text,
+        &format!(
+            "  orbiting: {per_second:.0} pictures per second, of a sample in {edge:.0} x {edge:.0} pixels; \
+             from a move to its picture median {median}, worst {worst}"
+        ),
+    );
+    for (key, name) in [("one_sample", "rays of one sample"), ("all_samples", "of all samples")] {
+        let [median, worst] = ["median", "worst"].map(|what| seconds(of, &format!("/trace/{key}/{what}")));
+        let rays = &of["trace"][key]["rays"];
+        line(text, &format!("  {name}: median {median}, worst {worst}; {rays} rays"));
+    }
 }
 
 fn recorded(text: &mut String, of: &Value) {

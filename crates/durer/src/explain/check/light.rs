@@ -61,7 +61,7 @@ impl Checked<'_> {
             let sample = light.sample(&asked, from, &Sampler::middle());
             sample.is_some_and(|s| angle(unit(node.d), toward(from, s.point, unit(s.wi))) < 10.0 * SAME)
         };
-        let other = (0..).zip(&scene.lights).find(|(i, light)| *i != claimed && leads(&***light));
+        let other = (0..).zip(scene.lights.iter()).find(|(i, light)| *i != claimed && leads(&***light));
         let name = other.and_then(|(i, _)| scene.light_names.get(i as usize));
         name.map(|name| format!("; it points to light \"{name}\"")).unwrap_or_default()
     }

@@ -6,7 +6,7 @@ mod write;
 
 pub(super) use read::decode;
 pub use read::read_exr_channels;
-pub use write::{ExrPicture, ExrValue, write_exr};
+pub use write::{ExrPicture, ExrValue, encode_exr, write_exr};
 
 /// One channel of floats.
 #[derive(Clone, Debug, PartialEq)]

@@ -48,6 +48,14 @@ pub fn write_exr(path: &Path, picture: &ExrPicture) -> Result<(), WriteError> {
     replace_file(path, &encode(path, picture)?)
 }
 
+/// The bytes of such a file.
+///
+/// # Errors
+/// As [`write_exr`], but for those of the file.
+pub fn encode_exr(picture: &ExrPicture) -> Result<Vec<u8>, WriteError> {
+    encode(Path::new("picture"), picture)
+}
+
 fn text(path: &Path, word: &str) -> Result<Text, WriteError> {
     if word.is_empty() || word.len() > 255 || word.contains('\0') {
         let reason = format!("\"{word}\" cannot be a name in an OpenEXR file (1 to 255 bytes)");

@@ -42,7 +42,7 @@ impl Things {
     pub(super) fn of(job: &Job<'_>) -> Option<Self> {
         let scene = job.scene;
         let (mut first, mut is_apart, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-        for target in &scene.targets {
+        for target in scene.targets.iter() {
             first.push(boxes.len() as u32);
             is_apart.push(matches!(target, Target::Shapes));
             match target {
@@ -99,7 +99,7 @@ fn place_instances(scene: &Scene, time: f32, first: &[u32], boxes: &mut [Bounds3
     // Meshes are placed again and again.
     let mut meshes: HashMap<*const Mesh, Bounds3> = HashMap::new();
     let mut own = |mesh: &Arc<Mesh>| *meshes.entry(Arc::as_ptr(mesh)).or_insert_with(|| bounds(mesh));
-    for (instance, target) in (0..).zip(&scene.targets) {
+    for (instance, target) in (0..).zip(scene.targets.iter()) {
         let placed = || scene.accel.instance_transform(instance, time);
         boxes[first[instance as usize] as usize] = match target {
             Target::Shapes => continue,

@@ -103,7 +103,7 @@ impl<P: Probe> Follow<'_, P> {
         let cx = self.walk.cx;
         let asked = LightCx { basis: cx.basis, time: ray.ray.time };
         let mut sky = Spectrum::BLACK;
-        for &light in &cx.scene.far {
+        for &light in cx.scene.far.iter() {
             let own = &cx.scene.lights[light as usize];
             let radiance = own.escaped(cx.basis, ray.ray.d);
             sky += match ray.density {

@@ -1,47 +1,63 @@
 //! From a film to picture files: developed for the eye (PNG), or as it is, with its story (OpenEXR).
-use std::time::Duration;
+use std::{error::Error, time::Duration};
 
-use durer::{
+use crate::{
     Output, Prepared, Show, View,
     film::{DepthRange, Developed, Pixel, ToneMap, develop, develop_data},
-    image::{ExrPicture, ExrValue, NamedChannel, PictureFormat, write_exr, write_png},
+    image::{ExrPicture, ExrValue, NamedChannel, Packing, PictureFormat, encode_exr, encode_png},
 };
-
-use crate::output::Destination;
 
 /// How light becomes 8-bit colours.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Look {
+pub struct Look {
     /// Stops of brightening.
-    pub(crate) exposure: f32,
-    pub(crate) tonemap: ToneMap,
+    pub exposure: f32,
+    /// The tone map.
+    pub tonemap: ToneMap,
 }
 
 /// A rendered picture on its way into files.
-pub(crate) struct Picture<'a> {
-    pub(crate) scene: &'a str,
-    pub(crate) prepared: &'a Prepared,
-    pub(crate) pixels: Vec<Pixel>,
-    pub(crate) render: Duration,
+pub struct Picture<'a> {
+    /// As the user named it.
+    pub scene: &'a str,
+    /// What it shows.
+    pub prepared: &'a Prepared,
+    /// The film's pixels.
+    pub pixels: Vec<Pixel>,
+    /// The time it took.
+    pub render: Duration,
     /// It is not complete.
-    pub(crate) interrupted: bool,
+    pub interrupted: bool,
+}
+
+impl Look {
+    /// The tone map for light of an integrator, if nobody asks for another: light that is computed as in the lecture is
+    /// shown as it was there.
+    pub fn usual_tonemap(integrator: &str) -> ToneMap {
+        match integrator {
+            "cast" | "whitted" | "distributed" => ToneMap::None,
+            _ => ToneMap::Agx,
+        }
+    }
 }
 
 impl Picture<'_> {
-    /// Writes it.
-    pub(crate) fn write(&self, to: &Destination, look: Look) -> anyhow::Result<()> {
-        match to.format {
+    /// The bytes of its file.
+    ///
+    /// # Errors
+    /// If there is no room for it in the format.
+    pub fn encode(&self, format: PictureFormat, look: Look) -> Result<Vec<u8>, Box<dyn Error + Send + Sync>> {
+        Ok(match format {
             PictureFormat::Png => {
                 let Developed { width, height, rgb8 } = self.develop(look);
-                write_png(&to.path, width, height, &rgb8)?;
+                encode_png(width, height, &rgb8, Packing::Small)?
             }
-            PictureFormat::Exr => write_exr(&to.path, &self.linear())?,
-        }
-        Ok(())
+            PictureFormat::Exr => encode_exr(&self.linear())?,
+        })
     }
 
     /// Nearest and farthest depth of a depth picture: what its PNG scales to.
-    pub(crate) fn depth_range(&self) -> Option<DepthRange> {
+    pub fn depth_range(&self) -> Option<DepthRange> {
         match self.output() {
             Output::Data(Show::Depth) => {
                 develop_data(Show::Depth, self.view().width, self.view().height, &self.data()).depth
@@ -51,7 +67,7 @@ impl Picture<'_> {
     }
 
     /// Tests of a white pixel of a cost picture.
-    pub(crate) fn white_tests(&self) -> Option<f32> {
+    pub fn white_tests(&self) -> Option<f32> {
         match self.output() {
             Output::Data(Show::Cost) => {
                 develop_data(Show::Cost, self.view().width, self.view().height, &self.data()).white_tests
@@ -72,7 +88,8 @@ impl Picture<'_> {
         self.pixels.iter().map(|p| (p.weight != 0.0).then(|| p.mean())).collect()
     }
 
-    fn develop(&self, look: Look) -> Developed {
+    /// For the eye.
+    pub fn develop(&self, look: Look) -> Developed {
         let (width, height) = (self.view().width, self.view().height);
         match self.output() {
             Output::Data(show) => develop_data(show, width, height, &self.data()).picture,

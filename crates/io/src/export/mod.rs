@@ -1,0 +1,2 @@
+//! Scene files out: [`durer_scene::SceneDesc`] to text.
+pub mod pbrt;

@@ -1,0 +1,81 @@
+//! Placements: one matrix, or one for each end of the time in which things move.
+use std::fmt::Write;
+
+use durer_core::{glam::DAffine3, math::Motion};
+use durer_scene::SceneDesc;
+
+/// Where something is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Frame {
+    Still(DAffine3),
+    /// At the two times of the file.
+    Moving(DAffine3, DAffine3),
+}
+
+/// The two times that the language has: those of the first thing that moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Times(Option<(f64, f64)>);
+
+impl Times {
+    pub(super) fn of(desc: &SceneDesc) -> Self {
+        let motions = (desc.cameras.iter().map(|c| &c.world_from_camera))
+            .chain(desc.shapes.iter().map(|s| &s.world_from_object))
+            .chain(desc.lights.iter().map(|l| &l.world_from_light));
+        let pair = |motion: &Motion| match motion.keys() {
+            [(start, _), (end, _)] => Some((*start, *end)),
+            _ => None,
+        };
+        Self(motions.filter(|motion| !motion.is_still()).find_map(pair))
+    }
+
+    /// In seconds, if anything moves.
+    pub(super) fn seconds(self) -> Option<(f64, f64)> {
+        self.0
+    }
+
+    /// The matrices of a motion, each changed by `map`.
+    ///
+    /// # Errors
+    /// If it has other keys than the two.
+    pub(super) fn frame(self, motion: &Motion, map: fn(&DAffine3) -> DAffine3) -> Result<Frame, String> {
+        match motion.keys() {
+            _ if motion.is_still() => Ok(Frame::Still(map(&motion.at(0.0)))),
+            [(start, a), (end, b)] if Some((*start, *end)) == self.0 => Ok(Frame::Moving(map(a), map(b))),
+            [_, _] => Err("it moves at another time than others do".to_owned()),
+            keys => {
+                Err(format!("it moves through {} places: the language has two for each thing", keys.len()))
+            }
+        }
+    }
+}
+
+impl Frame {
+    /// Appends the directives.
+    pub(super) fn write(&self, text: &mut String) {
+        match self {
+            Self::Still(m) => matrix(m, text),
+            Self::Moving(start, end) => {
+                text.push_str("ActiveTransform StartTime\n");
+                matrix(start, text);
+                text.push_str("ActiveTransform EndTime\n");
+                matrix(end, text);
+                text.push_str("ActiveTransform All\n");
+            }
+        }
+    }
+}
+
+fn matrix(m: &DAffine3, text: &mut String) {
+    if *m == DAffine3::IDENTITY {
+        text.push_str("Identity\n");
+        return;
+    }
+    let [x, y, z] = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis].map(|v| v.to_array());
+    let t = m.translation.to_array();
+    text.push_str("Transform [");
+    for (column, w) in [(x, 0), (y, 0), (z, 0), (t, 1)] {
+        let [a, b, c] = column;
+        let _ = write!(text, " {a} {b} {c} {w}");
+    }
+    text.push_str(" ]\n");
+}

@@ -1,0 +1,134 @@
+//! Files for the viewer to keep: the picture, and the scene as he changed it.
+use durer::{
+    Prepared,
+    export::pbrt::{Film, text},
+    film::ToneMap,
+    image::PictureFormat,
+    picture::{Look, Picture},
+    scene::Data,
+};
+
+use crate::{settings::Settings, stage::Opened, take::Take};
+
+/// What is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SaveFormat {
+    /// The picture.
+    Picture(PictureFormat),
+    /// The scene.
+    Pbrt,
+}
+
+/// A file in the making.
+#[derive(Debug)]
+pub(crate) struct File {
+    pub(crate) name: String,
+    pub(crate) mime: &'static str,
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl SaveFormat {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "png" => Some(Self::Picture(PictureFormat::Png)),
+            "exr" => Some(Self::Picture(PictureFormat::Exr)),
+            "pbrt" => Some(Self::Pbrt),
+            _ => None,
+        }
+    }
+
+    fn suffix_and_mime(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Picture(PictureFormat::Png) => ("png", "image/png"),
+            Self::Picture(PictureFormat::Exr) => ("exr", "image/x-exr"),
+            Self::Pbrt => ("pbrt", "text/plain; charset=utf-8"),
+        }
+    }
+}
+
+/// The file.
+///
+/// # Errors
+/// Why there is none.
+pub(crate) fn file(
+    format: SaveFormat,
+    scene: &str,
+    (settings, opened): (&Settings, &Opened),
+    (prepared, take): (&Prepared, &Take),
+) -> Result<File, String> {
+    let bytes = match format {
+        SaveFormat::Picture(picture) => {
+            let pixels = take.pixels().ok_or("there is no sample of the picture yet: wait a moment")?;
+            let interrupted = !take.is_done(&prepared.job());
+            let tonemap: ToneMap = settings.look.tonemap(&prepared.integrator_name);
+            let look = Look { exposure: settings.look.exposure, tonemap };
+            let whole = Picture { scene, prepared, pixels, render: take.busy(), interrupted };
+            whole.encode(picture, look).map_err(|e| e.to_string())?
+        }
+        SaveFormat::Pbrt => pbrt(scene, settings, opened)?.into_bytes(),
+    };
+    let (suffix, mime) = format.suffix_and_mime();
+    Ok(File { name: format!("{}.{suffix}", stem(&settings.desc.name)), mime, bytes })
+}
+
+/// The scene as the viewer changed it.
+fn pbrt(scene: &str, settings: &Settings, opened: &Opened) -> Result<String, String> {
+    let Settings { desc, options, camera, .. } = settings;
+    let mut desc = desc.clone();
+    let taken = desc.cameras.get_mut(*camera).ok_or("there is no camera")?;
+    let scales = options.lens.focus.is_none();
+    *taken = options.lens.given_to(taken.clone());
+    let view = &opened.prepared.scene.view;
+    let film = Film {
+        width: options.width.unwrap_or(view.width),
+        height: options.height.unwrap_or(view.height),
+        samples: options.samples.or(desc.film.samples).unwrap_or(opened.prepared.settings.samples),
+        sampler: options.sampler.unwrap_or_default(),
+    };
+    if let Some(param) = taken.node.params.get("focuspixel").filter(|_| scales) {
+        // It speaks of the picture that the scene asked for.
+        let by = |now: u32, asked: Option<u32>| asked.map_or(1.0, |asked| now as f32 / asked.max(1) as f32);
+        let by = [by(film.width, desc.film.width), by(film.height, desc.film.height)];
+        let mut param = param.clone();
+        if let Data::Floats(pixel) = &mut param.data {
+            pixel.iter_mut().zip(by).for_each(|(at, by)| *at *= by);
+        }
+        taken.node.params.set(param);
+    }
+    let mut remarks = vec![
+        format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION")),
+        "Paths of files start where the original lies: this file belongs there.".to_owned(),
+    ];
+    let mut words = String::new();
+    if options.seed != 0 {
+        words += &format!(" --seed {}", options.seed);
+    }
+    if options.time != 0.0 {
+        words += &format!(" --time-at {}", options.time);
+    }
+    if let Some(shutter) = options.shutter {
+        words += &format!(" --shutter {},{}", shutter.min, shutter.max);
+    }
+    if !words.is_empty() {
+        remarks.push(format!("What scene files do not say: render it with{words}."));
+    }
+    text(&desc, &opened.studio.imported.assets, (film, *camera), &remarks).map_err(|refused| {
+        let list: String = refused.iter().map(|what| format!("\n  {what}")).collect();
+        format!("this scene cannot be written as .pbrt, as the language has no words for it:{list}")
+    })
+}
+
+/// A name that is safe in a header and on every system.
+fn stem(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "-_ ".contains(c) { c } else { '_' };
+    let stem: String = name.chars().map(plain).take(80).collect();
+    if stem.trim().is_empty() { "scene".to_owned() } else { stem }
+}
+
+/// The axis of the world that is up: the one that the camera's up is nearest to.
+pub(crate) fn up(settings: &Settings) -> [f64; 3] {
+    let up = settings.camera().world_from_camera.at(settings.options.time.into()).matrix3.y_axis;
+    let size = up.abs();
+    let axis = if size.z > size.x.max(size.y) { 2 } else { usize::from(size.y >= size.x) };
+    std::array::from_fn(|i| if i == axis { up[axis].signum() } else { 0.0 })
+}
