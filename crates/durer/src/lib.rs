@@ -21,6 +21,7 @@ mod options;
 pub mod picture;
 mod prepare;
 mod studio;
+mod transport;
 pub mod tree;
 
 pub use durer_accel as accel;
@@ -44,6 +45,7 @@ pub use durer_scene as scene;
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
 pub use studio::{Studio, Wanted};
+pub use transport::with_usual_depth;
 
 use std::path::Path;
 

@@ -1,6 +1,4 @@
 //! A description and wishes to something that renders.
-mod integrator;
-
 use std::collections::BTreeMap;
 
 use durer_accel::BuildOptions;
@@ -16,10 +14,10 @@ use durer_render::{
 };
 use durer_scene::{Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
-pub(crate) use integrator::integrator_node;
-use integrator::{registered_word, rules};
-
-use crate::{Options, environment};
+use crate::{
+    Options, environment,
+    transport::{integrator_node, registered_word, rules},
+};
 
 /// Pixels of a picture whose size nobody asked for.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);

@@ -6,10 +6,7 @@ use durer_render::{
 };
 use durer_scene::{Diagnostics, Node, SceneDesc};
 
-use crate::{
-    Options, Prepared, environment,
-    prepare::{integrator_node, prepared},
-};
+use crate::{Options, Prepared, environment, prepare::prepared, transport::integrator_node};
 
 /// An opened scene with everything in its description that options ask for and that was made up: surroundings, the
 /// integrator, a camera, lights.

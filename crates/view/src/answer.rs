@@ -1,5 +1,6 @@
 //! Questions that take a while, answered beside the session's own thread: the rays of a pixel, the scene around them.
 use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
     sync::{
         Arc, Weak,
         mpsc::{Receiver, Sender, channel},
@@ -54,6 +55,32 @@ pub(crate) struct Answerer {
     questions: Sender<(Question, Outbox)>,
 }
 
+impl Question {
+    fn id(&self) -> u64 {
+        match self {
+            Self::Trace(traced) => traced.trace.id,
+            Self::Ghost { id, .. } => *id,
+        }
+    }
+
+    fn answer(&self) -> String {
+        match self {
+            Self::Trace(traced) => answer(traced),
+            Self::Ghost { id, name, revision, seq, prepared } => {
+                let scene = GhostScene::new(name, prepared);
+                json!({ "type": "ghost", "id": id, "revision": revision, "seq": seq, "scene": scene })
+                    .to_string()
+            }
+        }
+    }
+}
+
+/// The message about a question that has no answer.
+fn refused(id: u64, message: &str) -> String {
+    json!({ "type": "error", "about": "trace", "param": null, "message": message, "hint": null, "id": id })
+        .to_string()
+}
+
 impl Answerer {
     pub(crate) fn start(session: &Arc<Session>) -> Self {
         let (questions, asked) = channel();
@@ -72,14 +99,10 @@ impl Answerer {
 
 fn answer_all(asked: &Receiver<(Question, Outbox)>, session: &Weak<Session>) {
     for (question, outbox) in asked {
-        let text = match question {
-            Question::Trace(traced) => answer(&traced),
-            Question::Ghost { id, name, revision, seq, prepared } => {
-                let scene = GhostScene::new(&name, &prepared);
-                json!({ "type": "ghost", "id": id, "revision": revision, "seq": seq, "scene": scene })
-                    .to_string()
-            }
-        };
+        // A fault of ours ends this answer, not the session that waits for it.
+        let answered = catch_unwind(AssertUnwindSafe(|| question.answer()));
+        let text = answered
+            .unwrap_or_else(|_| refused(question.id(), "durer failed at this question: please report it"));
         outbox.send(Out::Text(text));
         match session.upgrade() {
             Some(session) => session.ask(Request::Answered),
@@ -100,10 +123,7 @@ fn answer(traced: &Traced) -> String {
             // The document is large: it is not read again to be put in here.
             format!("{},\"page\":{page}}}", head.trim_end_matches('}'))
         }
-        Err(message) => {
-            json!({ "type": "error", "about": "trace", "param": null, "message": message, "hint": null, "id": trace.id })
-                .to_string()
-        }
+        Err(message) => refused(trace.id, &message),
     }
 }
 

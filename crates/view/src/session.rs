@@ -93,6 +93,15 @@ struct Inbox {
     waiting: Option<Instant>,
 }
 
+/// However the thread ends, nobody waits for it.
+struct Over(Arc<Session>);
+
+impl Drop for Over {
+    fn drop(&mut self) {
+        self.0.end();
+    }
+}
+
 /// See above.
 pub(crate) struct Session {
     /// Nobody can guess it.
@@ -115,7 +124,11 @@ impl Session {
         };
         let session = Arc::new(Self { id, inbox: Mutex::new(inbox), filled: Condvar::new() });
         let (own, stage) = (Arc::clone(&session), Arc::clone(stage));
-        let run = move || Director::new(stage, own, like).run();
+        let run = move || {
+            let over = Over(Arc::clone(&own));
+            Director::new(stage, own, like).run();
+            drop(over);
+        };
         thread::Builder::new().name("durer session".to_owned()).spawn(run).ok()?;
         Some(session)
     }
@@ -123,6 +136,9 @@ impl Session {
     /// Asks for something.
     pub(crate) fn ask(&self, request: Request) {
         let mut inbox = lock(&self.inbox);
+        if inbox.ended {
+            return;
+        }
         match &request {
             Request::Connect(..) => inbox.waiting = None,
             Request::Said(message) if message.ends_picture() => inbox.cancel.store(true, Ordering::Relaxed),
@@ -144,6 +160,7 @@ impl Session {
     pub(crate) fn end(&self) {
         let mut inbox = lock(&self.inbox);
         inbox.ended = true;
+        inbox.requests.clear();
         inbox.cancel.store(true, Ordering::Relaxed);
         drop(inbox);
         self.filled.notify_all();
@@ -157,6 +174,11 @@ impl Session {
     /// Nobody looks any more.
     pub(crate) fn begin_waiting(&self) {
         lock(&self.inbox).waiting = Some(Instant::now());
+    }
+
+    /// Whether its thread has ended or will.
+    pub(crate) fn is_over(&self) -> bool {
+        lock(&self.inbox).ended
     }
 
     /// Whether somebody asked for something.

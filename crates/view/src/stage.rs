@@ -86,14 +86,16 @@ impl Stage {
 
     /// A session by its id.
     pub(crate) fn session(&self, id: &str) -> Option<Arc<Session>> {
-        lock(&self.sessions).iter().find(|session| session.id == id).cloned()
+        let sessions = lock(&self.sessions);
+        sessions.iter().find(|session| session.id == id && !session.is_over()).cloned()
     }
 
     /// A new session, like another one if there is one; `None` if there is no room for it.
     pub(crate) fn new_session(self: &Arc<Self>, like: Option<Arc<Session>>) -> Option<Arc<Session>> {
         let mut sessions = lock(&self.sessions);
         sessions.retain(|session| {
-            let stays = session.waiting_since().is_none_or(|since| since.elapsed() < PATIENCE);
+            let patient = session.waiting_since().is_none_or(|since| since.elapsed() < PATIENCE);
+            let stays = patient && !session.is_over();
             if !stays {
                 session.end();
             }

@@ -52,7 +52,7 @@ describe("the live picture", () => {
     const box = (await picture(tab).boundingBox())!;
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await expect.poll(() => picture(tab).getAttribute("data-done")).toBe("true");
-    const before = await pixelOf(tab, 0.5, 0.5);
+    const before = await pixelOf(tab, 0.49, 0.47);
     await tab.mouse.move(x, y);
     await tab.mouse.down();
     await tab.mouse.move(x + 150, y + 10, { steps: 6 });
@@ -67,7 +67,7 @@ describe("the live picture", () => {
     await tab.locator(".tools button", { hasText: "Reset view" }).click();
     await expect.poll(() => last("camera")!["name"]).toBe(null);
     await expect.poll(() => picture(tab).getAttribute("data-done")).toBe("true");
-    expect(await pixelOf(tab, 0.5, 0.5)).toEqual(before);
+    expect(await pixelOf(tab, 0.49, 0.47)).toEqual(before);
     calm();
   });
 
@@ -319,11 +319,11 @@ describe("what goes wrong", () => {
 
   it("shows the error of a scene that cannot be read again, over the old picture, until it can", async () => {
     await expect.poll(() => picture(tab).getAttribute("data-done")).toBe("true");
-    const shown = await pixelOf(tab, 0.5, 0.5);
+    const shown = await pixelOf(tab, 0.49, 0.47);
     mock.fail("room.pbrt:3:1: <b>unknown</b> word");
     await tab.waitForSelector('[data-about="scene"]');
     expect(await tab.locator('[data-about="scene"] pre').textContent()).toBe("room.pbrt:3:1: <b>unknown</b> word");
-    expect(await pixelOf(tab, 0.5, 0.5)).toEqual(shown);
+    expect(await pixelOf(tab, 0.49, 0.47)).toEqual(shown);
     mock.fail(null);
     await tab.waitForSelector('[data-about="scene"]', { state: "detached" });
     mock.reload("balls, changed");

@@ -43,7 +43,7 @@ for (const [name, act] of SCENES) {
     const full = `${width}-${dark ? "dark" : "light"}-${name}`;
     if (only && !full.match(only)) continue;
     mock = process.env["ADDRESS"] ? null : await new Mock(whitted()).start();
-    const address = process.env["ADDRESS"] ?? mock!.address;
+    const address = mock?.address ?? process.env["ADDRESS"]!;
     const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
     const page = await context.newPage();
     page.on("console", (message) => /error|warning/.test(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && console.error(full, message.text()));

@@ -42,7 +42,8 @@ export async function frames(tab: Tab, more: number): Promise<void> {
   }
 }
 
-/** What the canvas shows at shares of its width and height: red, green, blue, opacity. */
+/** What the canvas shows at shares of its width and height: red, green, blue, opacity. Not where pixels of the film meet: there
+ * browsers may take either. */
 export function pixelOf(tab: Tab, u: number, v: number): Promise<number[]> {
   return picture(tab).evaluate((canvas: HTMLCanvasElement, [x, y]) =>
     [...canvas.getContext("2d")!.getImageData(Math.floor(canvas.width * x!), Math.floor(canvas.height * y!), 1, 1).data], [u, v]);

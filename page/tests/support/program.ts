@@ -12,7 +12,9 @@ export class Program {
 
   /** Starts it and waits for its address. */
   static async start(durer: string, words: string[]): Promise<Program> {
-    const child = spawn(durer, ["view", ...words, "--port", "0"], { stdio: ["ignore", "pipe", "pipe"] });
+    // While the page is worked on, a debug build serves the file anew at each request.
+    const page = process.env["DURER_VIEW_PAGE"];
+    const child = spawn(durer, ["view", ...words, "--port", "0", ...(page ? ["--page", page] : [])], { stdio: ["ignore", "pipe", "pipe"] });
     const program = new Program(child);
     child.stdout!.on("data", (data: Buffer) => (program.out += data.toString()));
     child.stderr!.on("data", (data: Buffer) => (program.errors += data.toString()));

@@ -33,7 +33,7 @@ fn numbers_of_any_sign_are_told_what_is_allowed() {
 fn options_of_other_commands_and_misspelt_ones_are_recognised() {
     let place = Place::new().with("ball.pbrt", BALL);
     for (words, said) in [
-        ("info ball.pbrt --width 64", "info has no --width; render, trace"),
+        ("info ball.pbrt --width 64", "info has no --width; render, view, trace"),
         ("render --pixel 3,3", "render has no --pixel; trace and explain have"),
         ("render --smaples 4", "did you mean '--spp'?"),
         ("render -spp 4", "did you mean '--spp'?"),

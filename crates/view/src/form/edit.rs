@@ -2,7 +2,9 @@
 use durer::{
     compile::LensOptions,
     sampling::SamplerKind,
-    scene::{Args, Diagnostics, Node, Param, ParamSpec, ParamType, Params, Severity, nearest_word},
+    scene::{
+        Args, Diagnostics, Node, Param, ParamSpec, ParamType, Params, SceneDesc, Severity, nearest_word,
+    },
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -172,12 +174,12 @@ pub(crate) fn kind(id: FormId, settings: &mut Settings, kind: &str) -> Result<Ef
         return Ok(effort(id));
     }
     let node = id.node(settings).ok_or_else(|| nothing(id))?;
-    let node = checked(id, with_kind(id, &node, kind)?, settings, None)?;
+    let node = checked(id, with_kind(id, &settings.desc, &node, kind)?, settings, None)?;
     id.put(settings, node);
     Ok(effort(id))
 }
 
-fn with_kind(id: FormId, node: &Node, kind: &str) -> Result<Node, Complaint> {
+fn with_kind(id: FormId, desc: &SceneDesc, node: &Node, kind: &str) -> Result<Node, Complaint> {
     let known = id.schemas();
     let names = known.iter().map(|s| s.name);
     let schema = id.schema(kind).ok_or_else(|| unknown(id, id.family(), kind, names))?;
@@ -188,7 +190,8 @@ fn with_kind(id: FormId, node: &Node, kind: &str) -> Result<Node, Complaint> {
         })
     };
     let params = collected(node.params.iter().filter(fits).cloned());
-    Ok(Node { kind: schema.name.to_owned(), params, at: node.at.clone() })
+    let node = Node { kind: schema.name.to_owned(), params, at: node.at.clone() };
+    Ok(if id == FormId::Integrator { durer::with_usual_depth(desc, node) } else { node })
 }
 
 /// The integrator of another kind, or with other parameters.
@@ -203,7 +206,7 @@ pub(crate) fn with(
     let id = FormId::Integrator;
     let mut node = settings.integrator();
     if let Some(kind) = kind {
-        node = with_kind(id, &node, kind)?;
+        node = with_kind(id, &settings.desc, &node, kind)?;
     }
     for (name, value) in params {
         node = with_param(id, &node, (name, value))?;

@@ -1,4 +1,4 @@
-//! Which integrator follows the light, and what it is told.
+//! Light transport as options, scene and defaults together ask for it: the integrator's node, and what it says.
 use std::collections::BTreeMap;
 
 use durer_render::{
@@ -10,13 +10,13 @@ use durer_scene::{Data, Diagnostics, Location, Node, Param, ParamDefault, ParamS
 use crate::{Distribution, Options};
 
 /// The word of the integrator that answers to `kind`, or stands in for it.
-pub(super) fn registered_word(kind: &str) -> String {
+pub(crate) fn registered_word(kind: &str) -> String {
     let entry = INTEGRATORS.iter().find(|e| e.answers_to(kind));
     entry.map_or_else(|| compile::default_integrator().kind, |e| e.schema.name.to_owned())
 }
 
 /// The integrator's parameters with their values, without those that have none.
-pub(super) fn rules(node: &Node) -> BTreeMap<String, serde_json::Value> {
+pub(crate) fn rules(node: &Node) -> BTreeMap<String, serde_json::Value> {
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     let rule = |spec: &ParamSpec| {
         let written = node.params.get(spec.name).map(|param| &param.data);
@@ -71,9 +71,7 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
         diagnostics.warning(node.at.clone(), message);
         node = other;
     }
-    if let Some(depth) = desc.usual_depth.filter(|_| PATHS.contains(&registered_word(&node.kind).as_str())) {
-        usual(&mut node, "maxdepth", ValueType::Integer, Data::Ints(vec![depth.min(i32::MAX as u32) as i32]));
-    }
+    node = with_usual_depth(desc, node);
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     for (wish, name, ty, data) in wishes(options) {
         if takes.iter().any(|p| p.name == name) {
@@ -91,11 +89,15 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
     node
 }
 
-/// Gives `node` a parameter that it does not have.
-fn usual(node: &mut Node, name: &str, ty: ValueType, data: Data) {
-    if node.params.get(name).is_none() {
-        node.params.push(Param { name: name.to_owned(), ty, data, at: Location::None });
+/// The node with as many bounces as are usual for scenes of its format, if it says nothing of them and follows paths.
+pub fn with_usual_depth(desc: &SceneDesc, mut node: Node) -> Node {
+    let follows_paths = PATHS.contains(&registered_word(&node.kind).as_str());
+    if let Some(depth) = desc.usual_depth.filter(|_| follows_paths && node.params.get("maxdepth").is_none()) {
+        let data = Data::Ints(vec![depth.min(i32::MAX as u32) as i32]);
+        let (name, at) = ("maxdepth".to_owned(), Location::None);
+        node.params.push(Param { name, ty: ValueType::Integer, data, at });
     }
+    node
 }
 
 /// What the options ask of an integrator: a name for people, the parameter and its value.
