@@ -89,8 +89,11 @@ def surface(scene, nodes, params):
         eta, k = params["eta"], params["k"]
         # Silver at 611, 549 and 464 nm (Johnson and Christy 1972).
         eta, k = ([0.059, 0.060, 0.047], [4.16, 3.59, 2.80]) if isinstance(eta[0], str) else (eta, k)
-        node = nodes.add("BsdfMetallic", IOR=eta, Extinction=k, Roughness=roughness)
+        node = nodes.add("BsdfMetallic", Roughness=roughness)
+        # The indices of refraction are inputs of this kind of reflectance only.
         node.fresnel_type, node.distribution = "PHYSICAL_CONDUCTOR", "GGX"
+        nodes.set(node.inputs["IOR"], eta)
+        nodes.set(node.inputs["Extinction"], k)
         return node
     if kind == "dielectric":
         return nodes.add("BsdfGlass", IOR=params["eta"][0], Roughness=roughness)

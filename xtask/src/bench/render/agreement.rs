@@ -85,8 +85,9 @@ mod tests {
 
     /// Left and right halves of grey, with an unevenness that adds nothing to any block.
     fn halves(left: f64, right: f64, wave: f64) -> Picture {
-        let value =
-            |i: usize| (if i % 32 < 16 { left } else { right }) + if i.is_multiple_of(2) { wave } else { -wave };
+        let value = |i: usize| {
+            (if i % 32 < 16 { left } else { right }) + if i.is_multiple_of(2) { wave } else { -wave }
+        };
         Picture { width: 32, pixels: (0..32 * 16).map(|i| [value(i); 3]).collect() }
     }
 

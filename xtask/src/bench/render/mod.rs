@@ -105,6 +105,11 @@ fn skip(skipped: &mut Vec<Skipped>, what: String, why: String) {
     skipped.push(Skipped { what, why });
 }
 
+/// What a failed program complained of last.
+fn last_line(text: &str) -> String {
+    text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim().to_owned()
+}
+
 fn compare(
     scene: &'static Scene,
     file: &Path,
@@ -121,6 +126,7 @@ fn compare(
         // Whoever begins may find the machine in another state than the others do.
         let first = run % found.len().max(1);
         found.rotate_left(first);
+        let mut failed = None;
         found.retain_mut(|(renderer, version, costs, pictures)| {
             let job = renderer::Job { scene, file, samples, seed: run as u32, folder };
             match renderer.render(&job) {
@@ -130,12 +136,24 @@ fn compare(
                     pictures.push(picture);
                     true
                 }
+                // Ours has to work, a peer need not.
+                Err(why) if renderer.is_ours() => {
+                    failed = Some(why);
+                    true
+                }
                 Err(why) => {
-                    skip(skipped, format!("{} of {}", renderer.name, scene.name), format!("{why:#}"));
+                    skip(
+                        skipped,
+                        format!("{} of {}", renderer.name, scene.name),
+                        last_line(&format!("{why:#}")),
+                    );
                     false
                 }
             }
         });
+        if let Some(why) = failed {
+            return Err(why);
+        }
     }
     // As they were asked for, which has ours first.
     found.sort_by_key(|(renderer, ..)| renderers.iter().position(|r| r.name == renderer.name));

@@ -48,6 +48,11 @@ pub(super) struct Cost {
 }
 
 impl Renderer {
+    /// Whether it is the program of this project.
+    pub(super) fn is_ours(&self) -> bool {
+        matches!(self.how, How::Durer(_))
+    }
+
     /// The program's version, the cost and the picture.
     pub(super) fn render(&self, job: &Job<'_>) -> anyhow::Result<(String, Cost, Picture)> {
         let out = job.folder.join(format!("{}-{}-{}.exr", job.scene.name, self.name, job.seed));

@@ -45,7 +45,7 @@ fn by_best_peer(results: &Results) -> Option<f64> {
     let seconds = |entry: &Entry| entry.seconds_to(results.scene.target);
     let agreeing = peers.iter().filter(|entry| entry.agreement.holds());
     let best = agreeing.map(seconds).min_by(f64::total_cmp)?;
-    (ours.renderer.name == "durer").then(|| seconds(ours) / best)
+    ours.renderer.is_ours().then(|| seconds(ours) / best)
 }
 
 fn scene_value(results: &Results) -> Value {
