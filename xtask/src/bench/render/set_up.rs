@@ -2,10 +2,11 @@
 use std::{
     env, fs,
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::Command,
 };
 
 use super::{
+    super::embree::succeed,
     Options, Skipped,
     renderer::{How, Renderer},
     skip,
@@ -80,7 +81,7 @@ impl Package {
         let import = || {
             let mut command = Command::new(&python);
             command.args(["-c", &format!("import numpy, {}", self.name)]);
-            succeed(command)
+            succeed(command, self.name)
         };
         if import().is_ok() {
             return Ok((python, script));
@@ -88,11 +89,11 @@ impl Package {
         eprintln!("==> pip install {}", self.wanted);
         let mut command = Command::new("python3");
         command.args(["-m", "venv"]).arg(&environment);
-        succeed(command)?;
+        succeed(command, "python3 -m venv")?;
         let mut command = Command::new(&python);
         command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
         command.args(["--only-binary", ":all:", "numpy", self.wanted]);
-        succeed(command)?;
+        succeed(command, "pip")?;
         import()?;
         Ok((python, script))
     }
@@ -110,16 +111,4 @@ fn llvm() -> Option<PathBuf> {
     let mut libraries = files
         .filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("libLLVM.so")));
     libraries.next()
-}
-
-/// Runs a command; if it fails, what it complained of last.
-fn succeed(mut command: Command) -> Result<(), String> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command.stdin(Stdio::null()).output().map_err(|error| format!("{name}: {error}"))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let said = String::from_utf8_lossy(&output.stderr);
-    let last = said.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("no reason given");
-    Err(format!("{name} failed: {}", last.trim()))
 }
