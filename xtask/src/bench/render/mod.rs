@@ -78,96 +78,115 @@ struct Results {
     entries: Vec<Entry>,
 }
 
+/// What is the same for all scenes.
+struct Bench<'a> {
+    options: &'a Options,
+    renderers: Vec<Renderer>,
+    /// Where pictures go.
+    folder: &'a Path,
+    skipped: Vec<Skipped>,
+}
+
 /// Builds, renders in turns, reports.
 pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     let program = release_program()?;
     let folder = target_folder()?.join("bench");
     fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    let mut skipped = Vec::new();
-    let renderers = set_up::renderers(&program, &folder, options, &mut skipped);
+    let mut bench = Bench { options, renderers: Vec::new(), folder: &folder, skipped: Vec::new() };
+    if options.scenes().next().is_some() {
+        let (renderers, skipped) = set_up::renderers(&program, &folder, options);
+        bench.renderers = renderers;
+        bench.skipped.extend(skipped);
+    }
     let mut results = Vec::new();
     for scene in options.scenes() {
         match scene.put_into(&folder.join("scenes")) {
-            Ok(file) => results.push(compare(scene, &file, &folder, &renderers, options, &mut skipped)?),
-            Err(why) => skip(&mut skipped, scene.name.to_owned(), format!("{why:#}")),
+            Ok(file) => {
+                let taken = bench.take_turns(scene, &file)?;
+                results.push(Results::of(scene, options.samples(scene), taken)?);
+            }
+            Err(why) => bench.skipped.push(Skipped::new(scene.name, &format!("{why:#}"))),
         }
     }
     let spheres = match options.with_spheres() {
         true => Some(spheres::run(&program, &folder, options.runs, options.quality)?),
         false => None,
     };
-    report::print(&results, spheres.as_ref(), &skipped, options.json)
+    report::print(&results, spheres.as_ref(), &bench.skipped, options.json)
 }
 
-/// Says it at once, and again in the report.
-fn skip(skipped: &mut Vec<Skipped>, what: String, why: String) {
-    eprintln!("skipped: {what}: {why}");
-    skipped.push(Skipped { what, why });
+impl Skipped {
+    /// Says it at once; the report says it again. Of what went wrong the last line is enough.
+    fn new(what: &str, why: &str) -> Self {
+        let last = why.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim();
+        eprintln!("skipped: {what}: {last}");
+        Self { what: what.to_owned(), why: last.to_owned() }
+    }
 }
 
-/// What a failed program complained of last.
-fn last_line(text: &str) -> String {
-    text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim().to_owned()
+/// All pictures of one renderer and what they cost.
+struct Taken {
+    renderer: Renderer,
+    version: String,
+    costs: Vec<Cost>,
+    pictures: Vec<Picture>,
 }
 
-fn compare(
-    scene: &'static Scene,
-    file: &Path,
-    folder: &Path,
-    renderers: &[Renderer],
-    options: &Options,
-    skipped: &mut Vec<Skipped>,
-) -> anyhow::Result<Results> {
-    let samples = options.samples(scene);
-    let mut found: Vec<(Renderer, String, Vec<Cost>, Vec<Picture>)> = Vec::new();
-    found.extend(renderers.iter().map(|r| (r.clone(), String::new(), Vec::new(), Vec::new())));
-    for run in 1..=options.runs {
-        eprintln!("==> {}, run {run} of {}", scene.name, options.runs);
-        // Whoever begins may find the machine in another state than the others do.
-        let first = run % found.len().max(1);
-        found.rotate_left(first);
-        let mut failed = None;
-        found.retain_mut(|(renderer, version, costs, pictures)| {
-            let job = renderer::Job { scene, file, samples, seed: run as u32, folder };
-            match renderer.render(&job) {
-                Ok((said, cost, picture)) => {
-                    *version = said;
-                    costs.push(cost);
-                    pictures.push(picture);
-                    true
-                }
-                // Ours has to work, a peer need not.
-                Err(why) if renderer.is_ours() => {
-                    failed = Some(why);
-                    true
-                }
-                Err(why) => {
-                    skip(
-                        skipped,
-                        format!("{} of {}", renderer.name, scene.name),
-                        last_line(&format!("{why:#}")),
-                    );
-                    false
+impl Bench<'_> {
+    /// Each renderer in its turn, as often as was asked for. Ours has to work, a peer need not.
+    fn take_turns(&mut self, scene: &Scene, file: &Path) -> anyhow::Result<Vec<Taken>> {
+        let untaken = |renderer: &Renderer| Taken {
+            renderer: renderer.clone(),
+            version: String::new(),
+            costs: Vec::new(),
+            pictures: Vec::new(),
+        };
+        let mut all: Vec<Taken> = self.renderers.iter().map(untaken).collect();
+        let samples = self.options.samples(scene);
+        for run in 1..=self.options.runs {
+            eprintln!("==> {}, run {run} of {}", scene.name, self.options.runs);
+            let job = renderer::Job { scene, file, samples, seed: run as u32, folder: self.folder };
+            let mut working = Vec::new();
+            for mut taken in all {
+                match taken.renderer.render(&job) {
+                    Ok((version, cost, picture)) => {
+                        taken.version = version;
+                        taken.costs.push(cost);
+                        taken.pictures.push(picture);
+                        working.push(taken);
+                    }
+                    Err(why) if taken.renderer.is_ours() => return Err(why),
+                    Err(why) => {
+                        let what = format!("{} of {}", taken.renderer.name, scene.name);
+                        self.skipped.push(Skipped::new(&what, &format!("{why:#}")));
+                    }
                 }
             }
-        });
-        if let Some(why) = failed {
-            return Err(why);
+            all = working;
+            // Whoever begins may find the machine in another state than the others do.
+            let first = 1.min(all.len());
+            all.rotate_left(first);
         }
+        // As they were asked for, which has ours first.
+        all.sort_by_key(|taken| self.renderers.iter().position(|r| r.name == taken.renderer.name));
+        Ok(all)
     }
-    // As they were asked for, which has ours first.
-    found.sort_by_key(|(renderer, ..)| renderers.iter().position(|r| r.name == renderer.name));
-    let means = found.iter().map(|(.., pictures)| Picture::mean(pictures)).collect::<Option<Vec<_>>>();
-    let means = means.context("no pictures")?;
-    let mask = noise::mask(scene.bright, &means);
-    let counted = mask.iter().filter(|counts| **counts).count() as f64 / mask.len().max(1) as f64;
-    let mut entries: Vec<Entry> = Vec::new();
-    for ((renderer, version, costs, pictures), mean) in found.into_iter().zip(means) {
-        let variance = noise::relative_variance(&pictures, &mean, &mask);
-        let this = (&mean, pictures.as_slice());
-        let first = entries.first().map_or(this, |first| (&first.mean, first.pictures.as_slice()));
-        let agreement = Agreement::of(this, first, &mask);
-        entries.push(Entry { renderer, version, costs, pictures, mean, variance, agreement });
+}
+
+impl Results {
+    fn of(scene: &'static Scene, samples: u32, all: Vec<Taken>) -> anyhow::Result<Self> {
+        let means: Option<Vec<Picture>> = all.iter().map(|taken| Picture::mean(&taken.pictures)).collect();
+        let means = means.context("no pictures")?;
+        let mask = noise::mask(scene.bright, &means);
+        let counted = mask.iter().filter(|counts| **counts).count() as f64 / mask.len().max(1) as f64;
+        let mut entries: Vec<Entry> = Vec::new();
+        for (Taken { renderer, version, costs, pictures }, mean) in all.into_iter().zip(means) {
+            let variance = noise::relative_variance(&pictures, &mean, &mask);
+            let this = (&mean, pictures.as_slice());
+            let first = entries.first().map_or(this, |first| (&first.mean, first.pictures.as_slice()));
+            let agreement = Agreement::of(this, first, &mask);
+            entries.push(Entry { renderer, version, costs, pictures, mean, variance, agreement });
+        }
+        Ok(Self { scene, samples, counted, entries })
     }
-    Ok(Results { scene, samples, counted, entries })
 }

@@ -9,7 +9,6 @@ use super::{
     super::embree::succeed,
     Options, Skipped,
     renderer::{How, Renderer},
-    skip,
 };
 use crate::root;
 
@@ -38,14 +37,9 @@ const PACKAGES: [Package; 2] = [
     Package { name: "bpy", wanted: "bpy>=4.3,<6", script: "cycles_peer.py", renderers: &[("cycles", &[])] },
 ];
 
-/// All that were asked for and can be had, ours first.
-pub(super) fn renderers(
-    program: &Path,
-    folder: &Path,
-    options: &Options,
-    skipped: &mut Vec<Skipped>,
-) -> Vec<Renderer> {
-    let mut found = Vec::new();
+/// All that were asked for and can be had, ours first, and what cannot.
+pub(super) fn renderers(program: &Path, folder: &Path, options: &Options) -> (Vec<Renderer>, Vec<Skipped>) {
+    let (mut found, mut skipped) = (Vec::new(), Vec::new());
     if options.wants_renderer("durer") {
         found.push(Renderer { name: "durer", how: How::Durer(program.to_owned()) });
     }
@@ -66,10 +60,10 @@ pub(super) fn renderers(
                     llvm: llvm.clone(),
                 },
             })),
-            Err(why) => skip(skipped, package.name.to_owned(), why),
+            Err(why) => skipped.push(Skipped::new(package.name, &why)),
         }
     }
-    found
+    (found, skipped)
 }
 
 impl Package {
