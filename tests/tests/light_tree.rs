@@ -48,7 +48,7 @@ fn moments(prepared: &Prepared, by: LightSampler, lit: &Lit) -> (f64, f64) {
     let scene = &prepared.scene;
     let sums = (0..SAMPLES).fold([0.0; 2], |sums, i| {
         let sampler = Sampler::new(SamplerKind::Independent, 9, [0, 0], i, SAMPLES);
-        let e = scene.choose_light(by, lit, sampler.d1(Dim::LightChoice)).map_or(0.0, |chosen| {
+        let e = scene.choose_light(by, lit, || sampler.d1(Dim::LightChoice)).map_or(0.0, |chosen| {
             let again = scene.light_chance(by, lit, chosen.light);
             assert!((again / chosen.chance - 1.0).abs() < 1e-5, "{again} {}", chosen.chance);
             irradiance(&*scene.lights[chosen.light], lit, &sampler) / f64::from(chosen.chance)
@@ -108,7 +108,7 @@ fn chances_are_those_of_all_lights_together() {
         assert!((sum - 1.0).abs() < 1e-5, "{by:?}: {sum}");
         let mut counts = vec![0.0; chances.len()];
         for i in 0..4096 {
-            let chosen = scene.choose_light(by, &lit, i as f32 / 4096.0).expect("lit");
+            let chosen = scene.choose_light(by, &lit, || i as f32 / 4096.0).expect("lit");
             counts[chosen.light] += 1.0 / 4096.0;
         }
         for (count, chance) in counts.iter().zip(&chances) {

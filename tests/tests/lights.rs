@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 use durer::{Options, Rendered, Show, builtin, glam::DVec3};
 use durer_tests::{bits, import, prepared, render, scene};
 
-/// A picture of one pixel, all of which is the point `at`, seen from `eye`; all samples weigh exactly 1.
+/// A picture of one pixel, all of which is the point `at`, seen from `eye` by direct light; all samples weigh exactly 1.
 fn spot(eye: [f64; 3], at: [f64; 3], world: &str) -> String {
     let [ex, ey, ez] = eye;
     let [ax, ay, az] = at;
     format!(
         "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nPixelFilter \"box\"\n\
          LookAt {ex} {ey} {ez}  {ax} {ay} {az}  0.1 0.9 0.3\nCamera \"perspective\" \"float fov\" 0.0001\n\
-         WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [1 1 1]\n{world}"
+         Integrator \"whitted\"\nWorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [1 1 1]\n{world}"
     )
 }
 

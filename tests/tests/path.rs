@@ -1,6 +1,6 @@
 //! Path tracing against closed forms and against the integrators that branch.
 use durer::{Options, Prepared};
-use durer_tests::{render, scene};
+use durer_tests::{prepared, render, scene};
 
 fn options(integrator: &str, samples: u32) -> Options {
     Options { integrator: Some(integrator.to_owned()), samples: Some(samples), ..Options::default() }
@@ -179,4 +179,58 @@ fn surfaces_whose_normals_are_wrong_lose_no_light_of_an_even_sky() {
     );
     let found = mean(&scene(&text, &options("path", 64)));
     assert!((found - 1.0).abs() < 1e-5, "{found}");
+}
+
+#[test]
+fn files_without_integrator_are_path_traced_as_deep_as_their_language_has_it() {
+    let depth = |of: &Prepared| of.rules["max_depth"].clone();
+    let ball = "WorldBegin\nShape \"sphere\"\n";
+    let ready = |text: &str, integrator: Option<&str>| {
+        scene(text, &Options { integrator: integrator.map(str::to_owned), ..Options::default() })
+    };
+    let silent = ready(ball, None);
+    assert_eq!((silent.integrator_name.as_str(), depth(&silent)), ("path", 5.into()), "as in pbrt-v4");
+    assert_eq!(depth(&ready(ball, Some("direct"))), 5);
+    assert_eq!(depth(&ready(ball, Some("whitted"))), 10);
+    assert_eq!(depth(&ready(&format!("Integrator \"volpath\"\n{ball}"), None)), 5);
+    assert_eq!(depth(&ready(&format!("Integrator \"bdpt\"\n{ball}"), None)), 5);
+    assert_eq!(depth(&ready(&format!("Integrator \"path\" \"integer maxdepth\" 3\n{ball}"), None)), 3);
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("one.obj");
+    std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    let opened = |integrator: Option<&str>| {
+        let options = Options { integrator: integrator.map(str::to_owned), ..Options::default() };
+        prepared(durer::open(file.to_str().expect("a path")), &options)
+    };
+    assert_eq!((opened(None).integrator_name.as_str(), depth(&opened(None))), ("path", 8.into()));
+    assert_eq!(depth(&opened(Some("whitted"))), 10);
+}
+
+#[test]
+fn what_is_there_in_part_hides_reflects_and_shines_in_part() {
+    // A black disk of which a quarter is there hides a quarter of the sky.
+    let black = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+    let disk = |alpha: &str| format!("Shape \"disk\" \"float radius\" 9 {alpha}\n");
+    let quarter = disk("\"float alpha\" 0.25");
+    let seen = |world: &str, integrator: &str| mean(&picture(AFAR, integrator, world, 256));
+    for integrator in ["\"path\"", "\"direct\"", "\"whitted\" \"float mincontribution\" 0"] {
+        let found = seen(&format!("{WHITE_SKY}{black}{quarter}"), integrator);
+        assert!((found - 0.75).abs() < 1e-2, "{integrator}: {found}");
+        let lamp =
+            format!("AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" true {black}{quarter}");
+        let found = seen(&lamp, integrator);
+        assert!((found - 0.5).abs() < 1e-3, "{integrator}: {found}");
+    }
+    // So it does with a texture, of which half is holes; and a mirror, a metal or glass has holes as well.
+    let half = "Texture \"holes\" \"float\" \"checkerboard\" \"float tex1\" 0 \"float tex2\" 1 \"float uscale\" 64 \
+                \"float vscale\" 64\n";
+    for material in ["mirror\" \"rgb reflectance\" [0 0 0]", "diffuse\" \"rgb reflectance\" [0 0 0]"] {
+        let world =
+            format!("{WHITE_SKY}{half}Material \"{material}\n{}", disk("\"texture alpha\" \"holes\""));
+        let found = seen(&world, "\"path\"");
+        assert!((found - 0.5).abs() < 3e-2, "{material}: {found}");
+    }
+    let glass = format!("{WHITE_SKY}Material \"conductor\"\n{}", disk("\"float alpha\" 0"));
+    assert!((seen(&glass, "\"path\"") - 1.0).abs() < 1e-6);
 }

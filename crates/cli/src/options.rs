@@ -164,13 +164,14 @@ pub(crate) struct FilmOptions {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Light transport")]
 pub(crate) struct TransportOptions {
-    /// The light transport [default: the scene's, else whitted].
+    /// The light transport [default: the scene's, else path].
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(integrators()))]
     integrator: Option<String>,
     /// What `--integrator cast` shows of the nearest hit [default: shading].
     #[arg(long, value_name = "WHAT", value_parser = show())]
     show: Option<Show>,
-    /// Bounces traced at most; 0 leaves eye and shadow rays [default: the scene's, else 10].
+    /// Bounces traced at most; 0 leaves eye and shadow rays [default: the scene's, else 8; 5 for paths in
+    /// pbrt files, 10 for whitted and distributed].
     #[arg(long, value_name = "N", value_parser = whole(0u32..=1000), allow_negative_numbers = true)]
     max_depth: Option<u32>,
     /// Stop where a branch's share in the pixel is at or below this [default: the scene's, else 1/512].

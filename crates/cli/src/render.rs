@@ -5,9 +5,11 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Gather, Id, MediumStack, Output, Prepared, Rendered,
     film::{Tile, ToneMap},
+    image::PictureFormat,
 };
 
 use crate::{
+    brightness::better_exposure,
     exit::{Exit, WrongUsage, emit, emit_json, tell},
     interrupt::Interrupt,
     load::load,
@@ -99,6 +101,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let pixels = rendered.film.pixels();
     let picture = Picture { scene, prepared, pixels, render, interrupted: rendered.cancelled };
     let written = args.write(&picture, &outputs);
+    args.warn_about_brightness(&picture, &outputs);
     let seconds = Seconds { load: loaded.load, build: loaded.build, render, write: start.elapsed() };
     let stats = Stats::new(&Facts { scene, prepared, rendered: &rendered, seconds, outputs: &written });
     args.tell_summary(&picture, &stats);
@@ -168,6 +171,20 @@ impl Args {
         let asked = self.tonemap.is_some() || self.exposure != 0.0;
         if asked && !self.talk.quiet && prepared.integrator.output() != Output::Radiance {
             tell("warning: the picture shows no light: exposure and tone map change nothing");
+        }
+    }
+
+    fn warn_about_brightness(&self, picture: &Picture<'_>, outputs: &[Destination]) {
+        let seen = outputs.iter().any(|output| output.format == PictureFormat::Png);
+        let shows_light = picture.prepared.integrator.output() == Output::Radiance;
+        if self.talk.quiet || !seen || !shows_light {
+            return;
+        }
+        if let Some(better) = better_exposure(&picture.pixels, self.exposure) {
+            let much = if better < self.exposure { "bright" } else { "dark" };
+            tell(&format!(
+                "warning: most of the picture is too {much} to see anything: try --exposure {better}"
+            ));
         }
     }
 

@@ -10,7 +10,7 @@ use durer_render::{
     compile::{self, CompileOptions},
     drive::{Antialias, Job, Nesting, Settings},
     film::Tile,
-    integrator::{INTEGRATORS, Integrator, Output, Show},
+    integrator::{INTEGRATORS, Integrator, Output, PATHS, Show},
 };
 use durer_scene::{
     Data, Diagnostics, Location, Missing, Node, Param, ParamDefault, ParamSpec, SceneDesc, ValueType,
@@ -271,6 +271,9 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
         diagnostics.warning(node.at.clone(), message);
         node = other;
     }
+    if let Some(depth) = desc.usual_depth.filter(|_| PATHS.contains(&registered_word(&node.kind).as_str())) {
+        usual(&mut node, "maxdepth", ValueType::Integer, Data::Ints(vec![depth.min(i32::MAX as u32) as i32]));
+    }
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     for (wish, name, ty, data) in wishes(options) {
         if takes.iter().any(|p| p.name == name) {
@@ -286,6 +289,13 @@ fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagno
         }
     }
     node
+}
+
+/// Gives `node` a parameter that it does not have.
+fn usual(node: &mut Node, name: &str, ty: ValueType, data: Data) {
+    if node.params.get(name).is_none() {
+        node.params.push(Param { name: name.to_owned(), ty, data, at: Location::None });
+    }
 }
 
 /// What the options ask of an integrator: a name for people, the parameter and its value.

@@ -84,6 +84,25 @@ fn extensions_of_the_material_become_its_layers() {
 }
 
 #[test]
+fn layers_have_maps_of_directions() {
+    let d = with_images(json!({"materials": [{"extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 1}},
+    }}]}));
+    let desc = import_well(d, &[]).desc;
+    let m = &desc.materials[0].node;
+    for (parameter, file) in [("clearcoatnormal", "a b.png"), ("anisotropydirection", "image:1")] {
+        let name = word(m, parameter);
+        let texture = &desc.textures.iter().find(|t| t.name == name).expect("a texture").node;
+        assert_eq!(
+            (word(texture, "filename"), word(texture, "encoding")),
+            (file.to_owned(), "linear".to_owned())
+        );
+    }
+    assert_eq!(numbers(m, "clearcoatnormalscale"), [0.5]);
+}
+
+#[test]
 fn textures_carry_channel_encoding_factor_wrap_and_filter() {
     let d = with_images(json!({"materials": [
         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "baseColorFactor": [0.5, 1, 1, 1],

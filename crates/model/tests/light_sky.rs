@@ -326,10 +326,31 @@ fn a_disk_gives_its_irradiance_and_is_seen_where_it_is_sampled() {
     assert!(!built("distant", Params::new(), no_image()).is_disk());
 }
 
+/// The factor that makes a sky's units kcd/m² and klx: white of exposure value 15, by hand.
+const UNIT: f32 = 39.3216;
+
+#[test]
+fn full_sun_is_exposed_as_a_photographer_does_it() {
+    // Noon in clear air: a photograph by the rule of sunny 16 shows white paper nearly white, and a grey card of 18 % at
+    // about 0.18, within a stop. A clear sky is neither white nor black.
+    let sun = built("sun", toward(Params::new(), "sun", [0.5, 1.0, 0.0]), no_image());
+    let sky = built("sky", toward(Params::new(), "sun", [0.5, 1.0, 0.0]), no_image());
+    let up = durer_core::math::Normal3::new(0.0, 1.0, 0.0);
+    let luminance = |s| durer_core::spectrum::Color { rgb: Basis::Rgb.to_rgb(s) }.luminance();
+    let sample = sun.sample(&CX, Point3::ZERO, &Sampler::middle()).expect("it shines");
+    let level = luminance(sample.weight) * sample.wi.y / std::f32::consts::PI
+        + luminance(sky.ambient(Basis::Rgb, up));
+    assert!((0.6..1.1).contains(&(0.9 * level)), "white paper: {}", 0.9 * level);
+    assert!((0.09..0.36).contains(&(0.18 * level)), "grey card: {}", 0.18 * level);
+    let overhead = luminance(sky.escaped(Basis::Rgb, Vector3::new(-0.6, 0.8, 0.0)));
+    assert!((0.03..0.5).contains(&overhead), "sky: {overhead}");
+}
+
 #[test]
 fn a_clear_sky_is_blue_and_brightest_about_the_sun() {
     let sky = |turbidity: f32, sun: [f32; 3]| {
-        built("sky", toward(Params::new().float("turbidity", turbidity), "sun", sun), no_image())
+        let params = Params::new().float("turbidity", turbidity).float("scale", UNIT);
+        built("sky", toward(params, "sun", sun), no_image())
     };
     let high = [0.0, 0.8, 0.6];
     let clear = sky(2.5, high);
@@ -351,7 +372,8 @@ fn a_clear_sky_is_blue_and_brightest_about_the_sun() {
     let low = sky(2.5, [1.0, 0.05, 0.0]);
     assert!(luminance(at(&*low, [0.0, 1.0, 0.0])) < 0.5 * luminance(zenith));
     let sun = |height: f32| {
-        let sun = built("sun", toward(Params::new(), "sun", [1.0, height, 0.0]), no_image());
+        let params = Params::new().float("scale", UNIT);
+        let sun = built("sun", toward(params, "sun", [1.0, height, 0.0]), no_image());
         sun.sample(&CX, Point3::ZERO, &Sampler::middle()).map_or([0.0; 3], |s| Basis::Rgb.to_rgb(s.weight))
     };
     let [noon, evening] = [2.0, 0.05].map(sun);

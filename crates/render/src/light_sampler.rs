@@ -163,10 +163,12 @@ impl<'s> Shares<'s> {
 }
 
 impl Scene {
-    /// One of all lights that a path can ask, those around the scene among them, chosen by `u` in `[0, 1)`; `None` if
-    /// nothing can come from any.
-    pub fn choose_light(&self, by: LightSampler, at: &Lit, u: f32) -> Option<Chosen> {
+    /// One of all lights that a path can ask, those around the scene among them, chosen by `u` in `[0, 1)`, which is asked
+    /// for if there is a choice; `None` if nothing can come from any.
+    pub fn choose_light(&self, by: LightSampler, at: &Lit, u: impl FnOnce() -> f32) -> Option<Chosen> {
         let chooser = &self.chooser;
+        // PERF: most scenes have one light, or few (bench render).
+        let u = if chooser.sources.len() == 1 { 0.0 } else { u() };
         let (place, chance) = match by {
             LightSampler::Tree => return self.choose_by_tree(at, Among::All, u),
             LightSampler::Power => chooser.powers.as_ref()?.choose(u),
@@ -202,6 +204,11 @@ impl Scene {
     }
 
     fn choose_by_tree(&self, at: &Lit, among: Among, u: f32) -> Option<Chosen> {
+        if let (Some(tree), []) = (&self.chooser.tree, &self.chooser.beside[..]) {
+            let picked = tree.choose(at.p, at.n, f64::from(u))?;
+            let light = self.chooser.members[picked.index] as usize;
+            return Some(Chosen { light, chance: picked.chance as f32 });
+        }
         let shares = Shares::new(self, at, among);
         let mut left = f64::from(u);
         let mut last = None;
@@ -223,6 +230,11 @@ impl Scene {
     }
 
     fn chance_by_tree(&self, at: &Lit, among: Among, light: usize) -> f32 {
+        if let (Place::Tree(member), Some(tree), []) =
+            (self.chooser.places[light], &self.chooser.tree, &self.chooser.beside[..])
+        {
+            return tree.chance(at.p, at.n, member as usize) as f32;
+        }
         let shares = Shares::new(self, at, among);
         match (self.chooser.places[light], &self.chooser.tree) {
             (Place::Tree(member), Some(tree)) => {

@@ -81,6 +81,7 @@ impl PathRay {
     }
     /// The `branch`-th ray spawned where this one ended, at `from`, in the same bodies.
     #[must_use]
+    #[inline]
     pub fn child(&self, (from, ray): (Point3, Ray), weight: Spectrum, branch: u32) -> Self {
         Self {
             ray,

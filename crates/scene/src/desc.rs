@@ -135,6 +135,8 @@ pub struct SceneDesc {
     pub sampler: Option<Node>,
     /// Light transport.
     pub integrator: Option<Node>,
+    /// Bounces of paths where the file is silent, if its language says how many.
+    pub usual_depth: Option<u32>,
     /// Textures; names are unique per [`TextureValue`].
     pub textures: Vec<TextureDesc>,
     /// Materials.

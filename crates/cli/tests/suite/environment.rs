@@ -75,7 +75,8 @@ fn the_replay_line_of_a_bad_sample_names_the_picture() {
     let scaled = "[3e38 3e38 3e38] \"float scale\" 1e10";
     let bright = MIRROR.replace("[0.5 0.5 0.5]", scaled).replace("mirror", "diffuse").replace("0.1", "1");
     let place = with_bytes(Place::new().with("m.pbrt", &bright), "sky.pfm", &pfm(1, &[&[[1.0; 3]]]));
-    let ran = place.run("render m.pbrt --env sky.pfm --width 20 --height 20 --spp 1 -o x.exr");
+    let ran =
+        place.run("render m.pbrt --integrator whitted --env sky.pfm --width 20 --height 20 --spp 1 -o x.exr");
     let line = ran.stderr.lines().find(|l| l.contains("durer trace")).expect("infinite sums are told");
     assert!(line.contains("--env sky.pfm"), "{line}");
 }

@@ -143,3 +143,18 @@ WorldBegin
 Material "diffuse"
 Shape "sphere" "string name" "ball"
 "#;
+
+#[test]
+fn a_picture_too_bright_to_see_anything_comes_with_the_exposure_that_helps() {
+    let bright = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6\nWorldBegin\n\
+                  LightSource \"infinite\" \"rgb L\" [184.32 184.32 184.32]\nShape \"sphere\"\n";
+    let place = Place::new().with("b.pbrt", bright);
+    let said = place.done("render b.pbrt --spp 1").stderr;
+    assert!(said.contains("too bright to see anything: try --exposure -1"), "{said}");
+    for words in ["--exposure -10", "-o b.exr", "--quiet", "--integrator cast --show depth"] {
+        let said = place.done(&format!("render b.pbrt --spp 1 {words}")).stderr;
+        assert!(!said.contains("try --exposure"), "{words}: {said}");
+    }
+    let said = place.done("render b.pbrt --spp 1 --exposure -30").stderr;
+    assert!(said.contains("too dark to see anything: try --exposure -1"), "{said}");
+}

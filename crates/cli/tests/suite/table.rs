@@ -56,7 +56,7 @@ fn rows_say_what_there_is_and_leave_out_what_there_is_not() {
     assert_eq!(row(&table, "textures"), ["1, 1 image", "dot.png, 3 x 2 pixels"]);
     assert!(row(&table, "cameras")[0].starts_with("none; an automatic one"), "{table}");
     assert_eq!(row(&table, "picture"), ["1280 x 720 pixels by default, 64 samples per pixel by default"]);
-    assert_eq!(row(&table, "integrator"), ["whitted by default"]);
+    assert_eq!(row(&table, "integrator"), ["path by default"]);
     assert_eq!(row(&table, "bounds"), ["from 0 0 0 to 41 1 0, size 41 x 1 x 0 (metres)"]);
     assert!(!table.contains("hierarchy") && !table.contains("node"), "{table}");
     assert!(place.done("info x.gltf -v").stdout.contains("hierarchy"), "{table}");

@@ -1,4 +1,5 @@
 //! Names of the random decisions along a path.
+use super::hash::salt;
 
 /// A random decision. Two decisions at one point of the ray tree never share a dimension; the way to the point is in
 /// the sampler's branch (see [`super::Sampler::fork`]).
@@ -24,6 +25,33 @@ pub enum Dim {
 }
 
 impl Dim {
+    /// How many there are.
+    const COUNT: usize = 8;
+    /// How many sets [`Dim::in_set`] knows.
+    const SETS: usize = 4;
+
+    /// Its number, made ready for hashing.
+    #[inline]
+    pub(super) fn salt(self) -> u64 {
+        const SALTS: [u64; Dim::COUNT] = {
+            let mut salts = [0; Dim::COUNT];
+            let mut i = 0;
+            while i < Dim::COUNT {
+                salts[i] = salt(i as u64);
+                i += 1;
+            }
+            salts
+        };
+        SALTS[self as usize]
+    }
+
+    /// The number of a set, made ready for hashing: that of no dimension.
+    #[inline]
+    pub(super) fn salt_of_set(set: usize) -> u64 {
+        const SALTS: [u64; Dim::SETS] = [salt(!0), salt(!1), salt(!2), salt(!3)];
+        SALTS[set]
+    }
+
     /// Which Sobol dimensions it takes where eye and first hit of a path share one set of points, after `forks` ways taken
     /// since the eye; `None` elsewhere. The dimensions are those of the lowest t-values together with the place in the
     /// pixel, for up to 2^10 points. What a lamp sends and what a scattered ray brings is added and never multiplied: these
@@ -43,7 +71,7 @@ impl Dim {
     /// Elsewhere numbers that decide one thing together share a set of points: which one, and which Sobol dimensions of it.
     /// What is of two numbers has the first two, of which the projection is the best.
     #[inline]
-    pub(super) fn in_set(self) -> (u64, [usize; 2]) {
+    pub(super) fn in_set(self) -> (usize, [usize; 2]) {
         match self {
             Self::Pixel => (0, [0, 1]),
             Self::Lens => (0, [2, 3]),

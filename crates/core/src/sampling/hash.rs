@@ -13,7 +13,19 @@ pub(super) const fn mix(mut x: u64) -> u64 {
 /// Hash of a pair; not symmetric.
 #[inline]
 pub(super) const fn combine(a: u64, b: u64) -> u64 {
-    mix(a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ mix(b.wrapping_add(0xD1B5_4A32_D192_ED03)))
+    combine_salted(a, salt(b))
+}
+
+/// The second of a pair, made ready for [`combine_salted`].
+#[inline]
+pub(super) const fn salt(b: u64) -> u64 {
+    mix(b.wrapping_add(0xD1B5_4A32_D192_ED03))
+}
+
+/// [`combine`] where the second of the pair is known long before.
+#[inline]
+pub(super) const fn combine_salted(a: u64, salt: u64) -> u64 {
+    mix(a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ salt)
 }
 
 /// The upper 24 bits as a float in `[0, 1)`.

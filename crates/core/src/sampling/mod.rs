@@ -15,4 +15,4 @@ pub use density::LinearDensity;
 pub use dimension::Dim;
 pub use kind::SamplerKind;
 pub use sampler::Sampler;
-pub use warp::{concentric_disk, cosine_hemisphere};
+pub use warp::{concentric_disk, concentric_polar, cosine_hemisphere};

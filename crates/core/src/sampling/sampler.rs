@@ -1,7 +1,7 @@
 //! The stateless sampler: every number can be asked for again, in any order, on any thread.
 use super::{
     Dim, SamplerKind, curve, halton,
-    hash::{combine, unit_float},
+    hash::{combine, combine_salted, unit_float},
     sobol,
     strata::{self, Place},
 };
@@ -125,7 +125,7 @@ impl Sampler {
             SamplerKind::Stratified => Place::Random,
             SamplerKind::Regular => Place::Centre,
         };
-        strata::interval(combine(self.key, dim as u64), self.index, self.count, place)
+        strata::interval(combine_salted(self.key, dim.salt()), self.index, self.count, place)
     }
 
     /// A point in `[0, 1)²`.
@@ -134,14 +134,14 @@ impl Sampler {
         if dim == Dim::Pixel && self.count == 1 {
             return Point2::new(0.5, 0.5);
         }
-        let h = combine(self.key, dim as u64);
+        let h = || combine_salted(self.key, dim.salt());
         match self.kind {
             SamplerKind::Independent => {
-                let bits = combine(h, u64::from(self.index));
+                let bits = combine(h(), u64::from(self.index));
                 Point2::new(unit_float(bits as u32), unit_float((bits >> 32) as u32))
             }
-            SamplerKind::Stratified => strata::square(h, self.index, self.count, Place::Random),
-            SamplerKind::Regular => strata::square(h, self.index, self.count, Place::Centre),
+            SamplerKind::Stratified => strata::square(h(), self.index, self.count, Place::Random),
+            SamplerKind::Regular => strata::square(h(), self.index, self.count, Place::Centre),
             SamplerKind::PaddedSobol => self.padded(dim).both(),
             SamplerKind::Sobol | SamplerKind::ZSobol => self.joint(dim).both(),
             SamplerKind::Halton => self.halton(dim, 2),
@@ -151,7 +151,7 @@ impl Sampler {
     /// A pair of its own. Shuffling the index by a nested permutation decorrelates pairs and keeps the net (Burley 2020).
     #[inline]
     fn padded(&self, dim: Dim) -> Scrambled {
-        let h = combine(self.key, dim as u64);
+        let h = combine_salted(self.key, dim.salt());
         let index = sobol::owen_scramble(self.index, h as u32);
         Scrambled { index, dimensions: [0, 1], scramble: combine(h, 1) }
     }
@@ -160,13 +160,12 @@ impl Sampler {
     #[inline]
     fn joint(&self, dim: Dim) -> Scrambled {
         let (index, key) = self.point();
-        let scramble = combine(key, dim as u64);
+        let scramble = combine_salted(key, dim.salt());
         if let Some(dimensions) = dim.joint(self.forks) {
             return Scrambled { index, dimensions, scramble };
         }
         let (set, dimensions) = dim.in_set();
-        // No dimension has the number of a set.
-        let shuffle = combine(key, !set) as u32;
+        let shuffle = combine_salted(key, Dim::salt_of_set(set)) as u32;
         Scrambled { index: sobol::owen_scramble(index, shuffle), dimensions, scramble }
     }
 
@@ -186,7 +185,7 @@ impl Sampler {
     fn halton(&self, dim: Dim, numbers: usize) -> Point2 {
         let position = dim.position(self.forks).filter(|at| at + numbers <= halton::DIMENSIONS);
         let Some(position) = position else { return self.padded(dim).both() };
-        let h = combine(self.key, dim as u64);
+        let h = combine_salted(self.key, dim.salt());
         let coordinate = |i: usize, h: u64| halton::radical_inverse(self.index, self.count, position + i, h);
         let second = if numbers == 2 { coordinate(1, combine(h, 1)) } else { 0.0 };
         Point2::new(coordinate(0, h), second)
@@ -203,14 +202,12 @@ struct Scrambled {
 impl Scrambled {
     #[inline]
     fn first(&self) -> f32 {
-        let coordinate = sobol::coordinate(self.index, self.dimensions[0]);
-        unit_float(sobol::owen_scramble(coordinate, self.scramble as u32))
+        unit_float(sobol::scrambled(self.index, self.dimensions[0], self.scramble as u32))
     }
     #[inline]
     fn both(&self) -> Point2 {
-        let coordinate = sobol::coordinate(self.index, self.dimensions[1]);
-        let second = unit_float(sobol::owen_scramble(coordinate, (self.scramble >> 32) as u32));
-        Point2::new(self.first(), second)
+        let seed = (self.scramble >> 32) as u32;
+        Point2::new(self.first(), unit_float(sobol::scrambled(self.index, self.dimensions[1], seed)))
     }
 }
 

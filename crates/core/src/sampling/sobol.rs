@@ -4,22 +4,20 @@
 //! (0, 2)-sequence. The others follow from the direction numbers of Joe and Kuo 2008, "Constructing Sobol Sequences with
 //! Better Two-Dimensional Projections".
 
-/// Dimension 0: the van der Corput sequence.
-#[inline]
-pub(super) const fn dimension0(index: u32) -> u32 {
-    index.reverse_bits()
-}
+//!
+//! PERF: coordinates are computed with their bits in reverse, the most significant last: that is how the scrambling wants
+//! them, and reversing is what costs most of all (bench render).
 
-/// Dimension 1: the generator matrix of the primitive polynomial x + 1 is Pascal's triangle mod 2, a Kronecker power of
-/// [[1, 1], [0, 1]], so that a vector is multiplied in one step per factor.
+/// Dimension 1, reversed: the generator matrix of the primitive polynomial x + 1 is Pascal's triangle mod 2, a Kronecker
+/// power of [[1, 1], [0, 1]], so that a vector is multiplied in one step per factor.
 #[inline]
-pub(super) const fn dimension1(index: u32) -> u32 {
-    let mut x = index.reverse_bits();
-    x ^= (x & 0x5555_5555) << 1;
-    x ^= (x & 0x3333_3333) << 2;
-    x ^= (x & 0x0F0F_0F0F) << 4;
-    x ^= (x & 0x00FF_00FF) << 8;
-    x ^ (x & 0x0000_FFFF) << 16
+const fn dimension1(index: u32) -> u32 {
+    let mut x = index;
+    x ^= (x & 0xAAAA_AAAA) >> 1;
+    x ^= (x & 0xCCCC_CCCC) >> 2;
+    x ^= (x & 0xF0F0_F0F0) >> 4;
+    x ^= (x & 0xFF00_FF00) >> 8;
+    x ^ (x & 0xFFFF_0000) >> 16
 }
 
 /// How many dimensions there are.
@@ -38,7 +36,7 @@ const DIRECTIONS: [(usize, u32, [u32; 5]); DIMENSIONS - 2] = [
     (5, 11, [1, 1, 5, 1, 1]),
 ];
 
-/// What each value of each four bits of the index adds to a coordinate.
+/// What each value of each four bits of the index adds to a coordinate, reversed.
 type Nibbles = [[u32; 16]; 8];
 
 /// One table for each dimension from the third on. PERF: eight look-ups, where the matrix would take a step for each bit
@@ -67,7 +65,8 @@ const fn tables() -> [Nibbles; DIMENSIONS - 2] {
     tables
 }
 
-/// The generator matrix, column by column: a recurrence whose coefficients are those of a primitive polynomial mod 2.
+/// The generator matrix, column by column, reversed: a recurrence whose coefficients are those of a primitive polynomial
+/// mod 2.
 const fn columns(degree: usize, inner: u32, first: &[u32; 5]) -> [u32; 32] {
     let mut columns = [0; 32];
     let mut i = 0;
@@ -86,14 +85,20 @@ const fn columns(degree: usize, inner: u32, first: &[u32; 5]) -> [u32; 32] {
         }
         i += 1;
     }
+    i = 0;
+    while i < 32 {
+        columns[i] = columns[i].reverse_bits();
+        i += 1;
+    }
     columns
 }
 
-/// A coordinate of the point, in a dimension below [`DIMENSIONS`].
+/// A coordinate of the point, in a dimension below [`DIMENSIONS`], its bits reversed.
 #[inline]
-pub(super) fn coordinate(index: u32, dimension: usize) -> u32 {
+fn reversed(index: u32, dimension: usize) -> u32 {
     match dimension {
-        0 => dimension0(index),
+        // The van der Corput sequence.
+        0 => index,
         1 => dimension1(index),
         _ => {
             let table = &TABLES[dimension - 2];
@@ -102,22 +107,36 @@ pub(super) fn coordinate(index: u32, dimension: usize) -> u32 {
     }
 }
 
-/// Owen scrambling: a random permutation of the binary digits' subtrees, chosen by `seed`. The multiplications by even
-/// numbers let each bit depend on the lower ones only, hence the reversals (Laine and Karras 2011).
+/// A coordinate of the point, in a dimension below [`DIMENSIONS`], scrambled by `seed`.
+#[inline]
+pub(super) fn scrambled(index: u32, dimension: usize, seed: u32) -> u32 {
+    permute(reversed(index, dimension), seed).reverse_bits()
+}
+
+/// Owen scrambling: a random permutation of the binary digits' subtrees, chosen by `seed`.
 #[inline]
 pub(super) const fn owen_scramble(x: u32, seed: u32) -> u32 {
-    let mut x = x.reverse_bits();
+    permute(x.reverse_bits(), seed).reverse_bits()
+}
+
+/// Owen scrambling of reversed bits: the multiplications by even numbers let each bit depend on the lower ones only (Laine
+/// and Karras 2011).
+#[inline]
+const fn permute(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3D20_ADEA);
     x = x.wrapping_add(seed);
     x = x.wrapping_mul((seed >> 16) | 1);
     x ^= x.wrapping_mul(0x0552_6C56);
-    x ^= x.wrapping_mul(0x53A2_2864);
-    x.reverse_bits()
+    x ^ x.wrapping_mul(0x53A2_2864)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn coordinate(index: u32, dimension: usize) -> u32 {
+        reversed(index, dimension).reverse_bits()
+    }
 
     /// Column by column: each direction number is the one before it, xored with itself shifted by one.
     fn by_direction_numbers(mut index: u32) -> u32 {
@@ -135,7 +154,7 @@ mod tests {
     #[test]
     fn kronecker_steps_equal_the_matrix_product() {
         for i in (0..5000).chain([u32::MAX, 1 << 31, 0xDEAD_BEEF, 0x1234_5678]) {
-            assert_eq!(dimension1(i), by_direction_numbers(i), "{i:x}");
+            assert_eq!(coordinate(i, 1), by_direction_numbers(i), "{i:x}");
         }
     }
 

@@ -232,3 +232,27 @@ fn cameras_of_different_names_are_kept() {
         ]
     );
 }
+
+#[test]
+fn shapes_with_holes_have_a_mask_around_their_material() {
+    let desc = sound(
+        "WorldBegin\nTexture \"t\" \"float\" \"checkerboard\"\nMaterial \"mirror\"\n\
+         Shape \"sphere\" \"float alpha\" 0.5\nShape \"sphere\" \"float alpha\" 0.5\nShape \"sphere\" \"texture alpha\" \"t\"\n\
+         Shape \"sphere\" \"float alpha\" 1\nNamedMaterial \"later\"\nShape \"disk\" \"float alpha\" 0.25\n\
+         MakeNamedMaterial \"later\" \"string type\" \"conductor\"\n",
+    );
+    let used: Vec<usize> = desc.shapes.iter().map(|s| s.material.map_or(99, |m| m.index())).collect();
+    let (first, second) = (used[0], used[2]);
+    assert!(used[1] == first && used[3] == 0 && second != first && used[4] != first, "{used:?}");
+    for (mask, below) in [(first, "mirror 0"), (second, "mirror 0"), (used[4], "later")] {
+        let node = &desc.materials[mask].node;
+        assert_eq!(node.kind, "mask");
+        let names = &node.params.get("material").expect("a name").data;
+        assert_eq!(*names, Data::Strings(vec![below.to_owned()]));
+        assert!(desc.materials[..mask].iter().any(|m| m.name == below));
+    }
+    assert!(desc.shapes.iter().all(|s| match &s.source {
+        ShapeSource::Node(node) => node.params.get("alpha").is_none_or(|p| p.data == Data::Floats(vec![1.0])),
+        ShapeSource::Mesh(_) => false,
+    }));
+}

@@ -1,7 +1,9 @@
 //! What broad lobes add to others: fibres on top (sheen), and the light that bounces several times between facets.
 //!
 //! **Sheen** (KHR_materials_sheen): `f = c D V` with `D = (2 + 1/a) sin^(1/a) h / (2 pi)` (Estevez and Kulla 2017,
-//! "Production Friendly Microfacet Sheen BRDF") and `V = 1 / (4 (c_o + c_i - c_o c_i))` (Neubelt and Pettineo 2013).
+//! "Production Friendly Microfacet Sheen BRDF") and `V = 1 / (4 (c_o + c_i - c_o c_i))` (Neubelt and Pettineo 2013). Seen along
+//! the surface that reflects more than arrives: it is divided by what it reflects along the lower of both directions, where that
+//! is more than 1.
 //! **Compensation** (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks"): with `E` the share of white
 //! facets after one bounce, `f = F (1 - E(o)) (1 - E(i)) / (pi (1 - <E>))`, where `F` is what is left of light that bounces
 //! more than once. White facets then lose nothing (validation.md E3).
@@ -9,14 +11,17 @@ use std::f32::consts::{FRAC_1_PI, PI};
 
 use durer_core::{
     math::{
-        Point2, Vector3,
+        Vector3,
         float::{pow, sqr},
     },
-    sampling::cosine_hemisphere,
     spectrum::Spectrum,
 };
 
-use super::{Facets, Reflectance, glossy::single_scattered};
+use super::{
+    Facets, Reflectance,
+    glossy::single_scattered,
+    sheen_table::{SIZE, TABLE},
+};
 
 /// Points of the integrals over cosines.
 const STEPS: usize = 12;
@@ -38,25 +43,31 @@ impl Sheen {
 
     /// Fibres of this colour and width, seen from `wo`.
     pub fn new(color: Spectrum, alpha: f32, wo: Vector3) -> Self {
-        let mut sheen = Self { color, alpha: alpha.max(Self::LEAST), hidden: 0.0 };
-        // Directions drawn by the cosine: the mean of pi f.
-        let place = |i: usize| (i as f32 + 0.5) / STEPS as f32;
-        let up = if wo.z < 0.0 { -wo } else { wo };
-        let mut sum = 0.0;
-        for x in 0..STEPS {
-            for y in 0..STEPS {
-                sum += PI * sheen.factor(up, cosine_hemisphere(Point2::new(place(x), place(y))));
-            }
-        }
-        sheen.hidden = (sum / (STEPS * STEPS) as f32).min(1.0);
-        sheen
+        Self { color, alpha: alpha.max(Self::LEAST), hidden: Self::hides(alpha, wo.z.abs().min(1.0)) }
+    }
+    /// Share that white fibres of this width reflect at most of a uniform sky towards a cosine in `[0, 1]`.
+    pub(super) fn hides(alpha: f32, cos: f32) -> f32 {
+        Self::sent(alpha, cos).min(1.0)
+    }
+    /// What the formula says of it: at grazing incidence more than 1.
+    fn sent(alpha: f32, cos: f32) -> f32 {
+        let place = |v: f32| {
+            let x = v.clamp(0.0, 1.0).sqrt() * (SIZE - 1) as f32;
+            let i = (x as usize).min(SIZE - 2);
+            (i, x - i as f32)
+        };
+        let ((row, v), (column, u)) = (place(alpha), place(cos));
+        let along = |r: usize| TABLE[r][column] * (1.0 - u) + TABLE[r][column + 1] * u;
+        along(row) * (1.0 - v) + along(row + 1) * v
     }
     fn factor(&self, o: Vector3, i: Vector3) -> f32 {
         let h = (o + i).normalize();
         let sin2 = sqr(h.x) + sqr(h.y);
         let power = 1.0 / self.alpha;
         let d = if sin2 > 0.0 { (2.0 + power) * pow(sin2.min(1.0), 0.5 * power) / (2.0 * PI) } else { 0.0 };
-        d / (4.0 * (o.z.abs() + i.z.abs() - o.z.abs() * i.z.abs())).max(1e-6)
+        let (co, ci) = (o.z.abs().min(1.0), i.z.abs().min(1.0));
+        let too_much = Self::sent(self.alpha, co).max(Self::sent(self.alpha, ci)).max(1.0);
+        d / ((4.0 * (co + ci - co * ci)).max(1e-6) * too_much)
     }
     pub(super) fn eval(&self, o: Vector3, i: Vector3) -> Spectrum {
         self.color * self.factor(o, i)

@@ -61,13 +61,33 @@ impl Glossy {
         // Half the length is the cosine between either direction and h; exactly the same from both.
         self.reflectance.at(0.5 * length) * (dv * self.scale)
     }
+    /// A clear layer of this reflectance at normal incidence.
+    pub(super) fn clear(f0: f32, alpha: f32) -> Self {
+        let reflectance = Reflectance::Schlick { f0: Spectrum::splat(f0), f90: Spectrum::ONE };
+        Self { reflectance, facets: Facets::round(alpha), scale: 1.0 }
+    }
     /// Share of the light from a uniform sky that leaves towards `wo`, without the factor `scale`.
     pub fn directional_albedo(&self, wo: Vector3) -> Spectrum {
-        let cos = wo.z.abs().min(1.0);
-        if self.facets.is_smooth() {
-            return self.reflectance.at(cos);
+        self.albedo_at(wo.z.abs().min(1.0))
+    }
+    /// The same by the cosine, in `[0, 1]`.
+    pub(super) fn albedo_at(&self, cos: f32) -> Spectrum {
+        match self.facets.is_smooth() {
+            true => self.reflectance.at(cos),
+            false => Self::albedo_of(self.reflectance.ends(), self.facets.alpha(), cos),
         }
-        let (a, b) = albedo::split_sum(cos, self.facets.alpha());
+    }
+    /// The same, of Schlick's reflectance between these ends and facets of this width.
+    pub(super) fn albedo_of((f0, f90): (Spectrum, Spectrum), alpha: f32, cos: f32) -> Spectrum {
+        if alpha < SMOOTH {
+            return (Reflectance::Schlick { f0, f90 }).at(cos);
+        }
+        let (a, b) = albedo::split_sum(cos, alpha);
+        f0 * a + f90 * b
+    }
+    /// The mean of [`Glossy::directional_albedo`] by the cosine.
+    pub(super) fn mean_albedo(&self) -> Spectrum {
+        let (a, b) = albedo::mean_split_sum(self.facets.alpha());
         let (f0, f90) = self.reflectance.ends();
         f0 * a + f90 * b
     }

@@ -1,41 +1,45 @@
-//! Metal under a clear coat, where either is rough: what light does below the coat is a random walk between the two (Guo,
-//! Hasan and Zhao 2018, "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs"; pbrt-v4's model).
+//! Something under a coat that has no closed form: metal where either is rough, or anything where light scatters in the coat.
+//! What light does below the coat's upper side is a random walk (Guo, Hasan and Zhao 2018, "Position-Free Monte Carlo
+//! Simulation for Arbitrary Layered BSDFs"; pbrt-v4's model).
 //!
 //! There is no closed form, so [`Layered::eval`] is an estimate, with numbers that follow from the two directions: the same
 //! pair always gives the same value, and over many pairs the mean is right. Way out of the coat: both the coat's facets seen
 //! from `wi` and the metal's seen from below are asked, weighted by the power heuristic (Veach and Guibas 1995). Directions
 //! are drawn from something simpler of about the same width, whose density is exact. What the coat itself reflects is a lobe
 //! of its own.
+mod below;
+mod cloud;
+
+use std::f32::consts::FRAC_1_PI;
+
 use durer_core::{
-    math::{Normal3, Point2, Vector3, float::sqr},
+    math::{
+        Normal3, Point2, Vector3,
+        float::{exp, sqr},
+    },
     sampling::cosine_hemisphere,
     spectrum::Spectrum,
 };
-use std::f32::consts::FRAC_1_PI;
 
+pub use self::{below::Below, cloud::Cloud};
 use super::{
     Branch, BranchKind, Drawn, Facets, Glossy, Reflectance, coat::faded, fresnel_dielectric, refract,
 };
 
-/// Shares of the narrow and the wide microfacets that directions are drawn from; the rest is spread by the cosine.
-const SHARES: [f32; 2] = [0.7, 0.2];
-
-/// Light that enters a coat, walks between it and a metal, and leaves it again.
+/// Light that enters a coat, walks between it and what is below, and leaves it again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layered {
     /// Index of the coat, relative to the outside.
     pub eta: f32,
     /// Its facets.
     pub coat: Facets,
-    /// Of the coat, in units of the mean free path of what absorbs in it.
+    /// Of the coat, in units of the mean free path of what is in it.
     pub thickness: f32,
-    /// The metal's index, relative to the coat.
-    pub metal_eta: Spectrum,
-    /// The metal's extinction, divided by the coat's index.
-    pub metal_k: Spectrum,
-    /// The metal's facets.
-    pub metal: Facets,
-    /// How often a walk meets the metal at most.
+    /// What is in it.
+    pub cloud: Cloud,
+    /// What is below it.
+    pub below: Below,
+    /// How often a walk meets what is below at most; it meets twice as many surfaces and particles.
     pub bounces: u16,
     /// Walks per value.
     pub walks: u16,
@@ -80,9 +84,20 @@ fn square_share(own: f32, other: f32) -> f32 {
 }
 
 impl Layered {
-    /// Whether it spreads: with two smooth layers everything leaves in the mirror direction.
+    /// Whether nothing spreads: with two smooth layers everything leaves in the mirror direction.
     fn is_sharp(&self) -> bool {
-        self.coat.is_smooth() && self.metal.is_smooth()
+        self.coat.is_smooth() && self.below.is_smooth() && !self.cloud.scatters()
+    }
+    /// Shares of the narrow and the wide microfacets that directions are drawn from; the rest is spread by the cosine. All
+    /// are tenths, as the lobe's draws choose by tenths.
+    fn shares(&self) -> [f32; 2] {
+        match self.below {
+            Below::Matte { .. } => [0.0, 0.0],
+            // Only particles spread.
+            Below::Metal { .. } if self.coat.is_smooth() && self.below.is_smooth() => [0.0, 0.0],
+            Below::Metal { .. } if self.cloud.scatters() => [0.3, 0.2],
+            Below::Metal { .. } => [0.7, 0.2],
+        }
     }
 
     /// An estimate of the value without the cosine, 1/sr; the same from both sides.
@@ -97,6 +112,9 @@ impl Layered {
     }
 
     fn walk(&self, o: Vector3, i: Vector3, dice: &mut Dice) -> Spectrum {
+        if self.cloud.scatters() {
+            return self.clouded_walk(o, i, dice);
+        }
         let Some((down, share)) = self.entered(o, dice.point()) else { return Spectrum::BLACK };
         // The way out, walked backwards.
         let exit = self.entered(i, dice.point());
@@ -104,21 +122,21 @@ impl Layered {
         let mut from = -down;
         let mut sum = Spectrum::BLACK;
         for bounce in 0..self.bounces {
-            if let Some((out, share)) = exit.filter(|_| !self.metal.is_smooth()) {
+            if let Some((out, share)) = exit.filter(|_| !self.below.is_smooth()) {
                 let kept = match self.coat.is_smooth() {
                     true => 1.0,
-                    false => square_share(self.entering(i, out).1, self.metal_density(from, -out)),
+                    false => square_share(self.entering(i, out).1, self.below.density(from, -out)),
                 };
                 let passed = share * faded(self.thickness, out) * kept;
-                sum += beta * self.metal_value(from, -out) * passed;
+                sum += beta * self.below.value(from, -out) * passed;
             }
-            let Some((up, weight)) = self.reflected(from, dice.point()) else { break };
+            let Some((up, weight)) = self.below.reflected(from, dice.point()) else { break };
             beta *= weight;
             if !self.coat.is_smooth() {
                 let (value, density) = self.entering(i, -up);
-                let kept = match self.metal.is_smooth() {
+                let kept = match self.below.is_smooth() {
                     true => 1.0,
-                    false => square_share(self.metal_density(from, up), density),
+                    false => square_share(self.below.density(from, up), density),
                 };
                 sum += beta * (value * faded(self.thickness, up) * kept);
             }
@@ -163,30 +181,6 @@ impl Layered {
         (share * density / down.z.abs(), density)
     }
 
-    fn fresnel(&self, cos: f32) -> Spectrum {
-        Reflectance::Index { eta: self.metal_eta, k: self.metal_k }.at(cos)
-    }
-
-    /// Of a rough metal, without the cosine.
-    fn metal_value(&self, o: Vector3, i: Vector3) -> Spectrum {
-        self.metal_lobe().eval(o, i)
-    }
-    fn metal_density(&self, o: Vector3, i: Vector3) -> f32 {
-        if self.metal.is_smooth() { 0.0 } else { self.metal_lobe().pdf(o, i) }
-    }
-    fn metal_lobe(&self) -> Glossy {
-        let reflectance = Reflectance::Index { eta: self.metal_eta, k: self.metal_k };
-        Glossy { reflectance, facets: self.metal, scale: 1.0 }
-    }
-
-    /// The direction in which the metal sends light from `from`, and `f cos / density`.
-    fn reflected(&self, from: Vector3, u: Point2) -> Option<(Vector3, Spectrum)> {
-        if self.metal.is_smooth() {
-            return Some((Vector3::new(-from.x, -from.y, from.z), self.fresnel(from.z.min(1.0))));
-        }
-        self.metal_lobe().draw(from, u).map(|d| (d.branch.wi, d.branch.weight))
-    }
-
     /// The direction in which the coat sends back what travels towards `up`, and its share.
     fn sent_back(&self, up: Vector3, u: Point2) -> Option<(Vector3, f32)> {
         // Turned over, so that the inside is above; -up is where the light comes from.
@@ -200,33 +194,55 @@ impl Layered {
     }
 
     /// Reflection that looks about the same: what integrators see that draw no directions.
-    pub(super) fn look(&self) -> Glossy {
-        let [facets, _] = self.widths();
+    pub(super) fn look(&self) -> Option<Glossy> {
+        let [facets, _] = self.widths()?;
         let outside = Spectrum::splat(sqr(1.0 - fresnel_dielectric(1.0, self.eta)));
-        let f0 = self.fresnel(1.0) * outside;
-        Glossy { reflectance: Reflectance::Schlick { f0, f90: Spectrum::BLACK }, facets, scale: self.scale }
+        let f0 = self.below.fresnel(1.0) * outside * (1.0 - self.clouded());
+        let reflectance = Reflectance::Schlick { f0, f90: Spectrum::BLACK };
+        Some(Glossy { reflectance, facets, scale: self.scale })
+    }
+    /// Share of light that meets a particle on its way down or up, if particles scatter; more or less.
+    fn clouded(&self) -> f32 {
+        if self.cloud.scatters() { 1.0 - exp(-2.0 * self.thickness) } else { 0.0 }
+    }
+    /// Share of light that it spreads widely, more or less.
+    pub(super) fn albedo(&self) -> Spectrum {
+        let clouded = self.clouded();
+        let body = match self.below {
+            Below::Matte { albedo } => albedo,
+            Below::Metal { .. } => Spectrum::BLACK,
+        };
+        let inside = self.cloud.albedo * clouded + body * (1.0 - clouded);
+        inside * (self.scale * (1.0 - fresnel_dielectric(1.0, self.eta)))
+    }
+    /// Share of light that it sends towards `wo`, more or less.
+    pub(super) fn strength(&self, wo: Vector3) -> f32 {
+        let narrow = self.look().map_or(0.0, |glossy| glossy.reflectance.ends().0.mean() * glossy.scale);
+        (narrow + self.albedo().mean()) * self.passed(wo)
     }
 
     /// Share of light that passes a smooth coat from `wo` and out again, more or less.
-    pub(super) fn passed(&self, wo: Vector3) -> f32 {
+    fn passed(&self, wo: Vector3) -> f32 {
         (1.0 - fresnel_dielectric(wo.z.abs().min(1.0), self.eta)) / (1.0 - fresnel_dielectric(1.0, self.eta))
     }
 
-    /// Facets of about the width of what leaves after one and after several bounces: slopes of the metal count `eta` times
-    /// outside, those of the coat `(eta - 1) / 2` times on each of the two ways, and `eta` times when it sends light back.
-    fn widths(&self) -> [Facets; 2] {
+    /// Facets of about the width of what leaves after one and after several bounces between metal and coat: slopes of the metal
+    /// count `eta` times outside, those of the coat `(eta - 1) / 2` times on each of the two ways, and `eta` times when it
+    /// sends light back.
+    fn widths(&self) -> Option<[Facets; 2]> {
+        let facets = self.below.facets()?;
         let eta2 = sqr(self.eta);
         let through = 0.5 * sqr(self.eta - 1.0);
         let width = |metal: f32, coat: f32, more: f32| {
             let metal = sqr(metal) * (1.0 + more);
             (eta2 * metal + (through + eta2 * more) * sqr(coat)).sqrt().clamp(0.01, 1.0)
         };
-        let base = if self.metal.x == self.metal.y { self.coat } else { self.metal };
-        [0.0, 1.5].map(|more| Facets {
-            x: width(self.metal.x, self.coat.x, more),
-            y: width(self.metal.y, self.coat.y, more),
+        let base = if facets.x == facets.y { self.coat } else { facets };
+        Some([0.0, 1.5].map(|more| Facets {
+            x: width(facets.x, self.coat.x, more),
+            y: width(facets.y, self.coat.y, more),
             ..base
-        })
+        }))
     }
 
     /// A direction at a point of the unit square, of the kind that `choice` chooses. `None` if it leads into the surface.
@@ -244,10 +260,10 @@ impl Layered {
             return None;
         }
         let o = if wo.z < 0.0 { -wo } else { wo };
-        let [narrow, wide] = self.widths();
+        let shares = self.shares();
         let facets = match choice {
-            c if c < SHARES[0] => Some(narrow),
-            c if c < SHARES[0] + SHARES[1] => Some(wide),
+            c if c < shares[0] => self.widths().map(|widths| widths[0]),
+            c if c < shares[0] + shares[1] => self.widths().map(|widths| widths[1]),
             _ => None,
         };
         let i = match facets {
@@ -268,12 +284,14 @@ impl Layered {
         let (o, i) = if wo.z < 0.0 { (-wo, -wi) } else { (wo, wi) };
         let h = (o + i).normalize();
         let of = |facets: &Facets| facets.masking(o) * facets.distribution(h) / (4.0 * o.z);
-        let [narrow, wide] = self.widths();
-        SHARES[0] * of(&narrow) + SHARES[1] * of(&wide) + (1.0 - SHARES[0] - SHARES[1]) * i.z * FRAC_1_PI
+        let shares = self.shares();
+        let even = (1.0 - shares[0] - shares[1]) * i.z * FRAC_1_PI;
+        self.widths().map_or(even, |[narrow, wide]| shares[0] * of(&narrow) + shares[1] * of(&wide) + even)
     }
 }
 
-/// Share of light that two smooth layers send in the mirror direction, seen under `cos`: the walk's closed form.
+/// Share of light that two smooth layers send in the mirror direction, seen under `cos`: the walk's closed form. Light that
+/// particles scatter is another lobe's.
 pub fn mirrored_by_layers(cos: f32, eta: f32, thickness: f32, metal: Reflectance, bounces: u32) -> Spectrum {
     let o = Vector3::new((1.0 - sqr(cos)).max(0.0).sqrt(), 0.0, cos.min(1.0));
     let outside = fresnel_dielectric(o.z, eta);

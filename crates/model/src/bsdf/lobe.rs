@@ -7,7 +7,8 @@ use durer_core::{
 };
 
 use super::{
-    Blurred, BranchKind, Branches, Draws, Gloss, Glossy, Highlight, Interface, Layered, Matte, Phong,
+    Blurred, BranchKind, Branches, Draws, Gloss, Glossy, GlossyView, Highlight, Interface, Layered, Matte,
+    Phong, Sheet, Tilted,
 };
 
 /// One way in which a surface scatters light.
@@ -49,6 +50,10 @@ pub enum Lobe {
     Phong(Phong),
     /// What light does between a coat and a metal below it.
     Layered(Layered),
+    /// Rough or sharp reflection about a normal of its own.
+    Tilted(Tilted),
+    /// Rough transmission through something thin.
+    Sheet(Sheet),
     /// Light goes straight on: partial coverage, or transmission through something thin.
     PassThrough {
         /// Share of light that passes.
@@ -77,6 +82,8 @@ impl Lobe {
             Self::Behind { albedo } if wo.z * wi.z < 0.0 => *albedo * FRAC_1_PI,
             Self::Phong(phong) => phong.eval(wo, wi),
             Self::Layered(layered) => layered.eval(wo, wi),
+            Self::Tilted(tilted) => tilted.eval(wo, wi),
+            Self::Sheet(sheet) => sheet.eval(wo, wi),
             Self::Diffuse { .. }
             | Self::Behind { .. }
             | Self::Ambient { .. }
@@ -100,14 +107,20 @@ impl Lobe {
             Self::Interface(interface) => interface.add_branches(wo, branches),
             Self::Gloss(gloss) => branches.add(BranchKind::Reflection, mirrored(wo), gloss.weight),
             Self::Blurred(blurred) => blurred.interface.add_branches(wo, branches),
+            Self::Tilted(tilted) => {
+                if let Some(branch) = tilted.branch(wo) {
+                    branches.add(branch.kind, branch.wi, branch.weight);
+                }
+            }
+            Self::Sheet(sheet) => branches.add(BranchKind::Transmission, -wo, sheet.passed(wo)),
             Self::PassThrough { weight } => branches.add(BranchKind::Transmission, -wo, *weight),
         }
     }
     /// Adds the directions that are perfectly sharp; see [`super::Bsdf::sharp`].
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
         match self {
-            Self::Gloss(_) | Self::Phong(_) | Self::Layered(_) => {}
-            Self::Glossy(glossy) if glossy.spreads() => {}
+            Self::Gloss(_) | Self::Phong(_) | Self::Layered(_) | Self::Sheet(_) => {}
+            Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) if glossy.spreads() => {}
             Self::Blurred(blurred) => blurred.add_sharp_branches(wo, branches),
             _ => self.add_branches(wo, branches),
         }
@@ -123,6 +136,10 @@ impl Lobe {
             }
             Self::Blurred(blurred) => blurred.draw(wo, u, draws),
             Self::Phong(phong) => phong.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
+            Self::Sheet(sheet) => sheet.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
+            Self::Tilted(tilted) if tilted.glossy.spreads() => {
+                tilted.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn));
+            }
             Self::Layered(layered) => {
                 // The kind is chosen by what the first number tells beyond it.
                 let stretched = u.x * CHOICES;
@@ -141,6 +158,8 @@ impl Lobe {
             Self::Blurred(blurred) => Some(blurred.pdf(wo, wi)),
             Self::Phong(phong) => Some(phong.pdf(wo, wi)),
             Self::Layered(layered) => Some(layered.pdf(wo, wi)),
+            Self::Tilted(tilted) if tilted.glossy.spreads() => Some(tilted.pdf(wo, wi)),
+            Self::Sheet(sheet) => Some(sheet.pdf(wo, wi)),
             _ => None,
         }
     }
@@ -151,7 +170,7 @@ impl Lobe {
     /// Share of [`Lobe::eval`] that [`super::Bsdf::branches`] does not carry.
     pub(super) fn share_beside_branches(&self) -> f32 {
         match self {
-            Self::Gloss(_) | Self::Blurred(_) => 0.0,
+            Self::Gloss(_) | Self::Blurred(_) | Self::Sheet(_) => 0.0,
             _ => self.look().map_or(1.0, |glossy| 1.0 - glossy.mirror_share()),
         }
     }
@@ -160,8 +179,16 @@ impl Lobe {
         match self {
             Self::Glossy(glossy) => Some(*glossy),
             Self::Phong(phong) => Some(phong.look()),
-            Self::Layered(layered) => Some(layered.look()),
+            Self::Layered(layered) => layered.look(),
+            Self::Tilted(tilted) => Some(tilted.glossy),
             _ => None,
+        }
+    }
+    /// What integrators that draw no directions see beside its branch.
+    pub(super) fn seen_glossy(&self, wo: Vector3) -> Option<GlossyView> {
+        match self {
+            Self::Tilted(tilted) => tilted.view(wo),
+            _ => self.look()?.view(wo),
         }
     }
     /// The colour people would name; see [`super::Bsdf::albedo`].
@@ -175,7 +202,12 @@ impl Lobe {
             Self::Matte(matte) => matte.albedo(),
             Self::Behind { albedo } => *albedo,
             Self::Phong(phong) => phong.specular,
-            Self::Layered(layered) => layered.look().reflectance.ends().0 * layered.scale,
+            Self::Layered(layered) => {
+                let narrow = layered.look().map_or(Spectrum::BLACK, |g| g.reflectance.ends().0 * g.scale);
+                narrow + layered.albedo()
+            }
+            Self::Tilted(tilted) => tilted.glossy.reflectance.ends().0 * tilted.glossy.scale,
+            Self::Sheet(sheet) => sheet.glossy().reflectance.ends().0 * sheet.glossy().scale,
             Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
         }
@@ -196,6 +228,10 @@ impl Lobe {
             Self::Behind { albedo } => Self::Behind { albedo: albedo * by },
             Self::Phong(p) => Self::Phong(Phong { specular: p.specular * by, ..p }),
             Self::Layered(l) => Self::Layered(Layered { scale: l.scale * by, ..l }),
+            Self::Tilted(t) => {
+                Self::Tilted(Tilted { glossy: Glossy { scale: t.glossy.scale * by, ..t.glossy }, ..t })
+            }
+            Self::Sheet(sheet) => Self::Sheet(sheet.scaled(by)),
             Self::PassThrough { weight } => Self::PassThrough { weight: weight * by },
         }
     }

@@ -1,4 +1,4 @@
-//! Lobes so broad that directions are drawn by the cosine alone, all on the side of `wo` and the same from both sides.
+//! Lobes so broad that directions are drawn by the cosine alone, all on one side and the same from both sides.
 //!
 //! Rough plaster and clay: EON (Portsmouth, Kutz and Hill 2024, "EON: A Practical Energy-Preserving Rough Diffuse BRDF"),
 //! Fujii's form of the model of Oren and Nayar (1994) with the light that bounces between the facets added. With
@@ -14,7 +14,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Bounced, Sheen, coat::Body};
+use super::{Bounced, Sheen, Under, coat::Body};
 
 /// A broad lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,8 @@ pub enum Matte {
     Sheen(Sheen),
     /// What glossy lobes lose between their facets.
     Bounced(Bounced),
+    /// A body below layers that reflect.
+    Under(Under),
 }
 
 /// `1/2 - 2 / (3 pi)` and `2/3 - 28 / (15 pi)`.
@@ -56,11 +58,13 @@ impl Matte {
             Self::Coated(body) => Self::Coated(body.scaled(by)),
             Self::Sheen(sheen) => Self::Sheen(Sheen { color: sheen.color * by, ..sheen }),
             Self::Bounced(bounced) => Self::Bounced(bounced.scaled(by)),
+            Self::Under(under) => Self::Under(under.scaled(by)),
         }
     }
     /// Value without the cosine, 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
-        if wo.z * wi.z <= 0.0 {
+        let side = if self.is_behind() { -wi.z } else { wi.z };
+        if wo.z * side <= 0.0 {
             return Spectrum::BLACK;
         }
         match self {
@@ -68,6 +72,7 @@ impl Matte {
             Self::Coated(body) => body.eval(wo, wi),
             Self::Sheen(sheen) => sheen.eval(wo, wi),
             Self::Bounced(bounced) => bounced.eval(wo, wi),
+            Self::Under(under) => under.eval(wo, wi),
         }
     }
     /// Share of the light of a uniform sky that leaves towards `wo`.
@@ -80,9 +85,10 @@ impl Matte {
             Self::Coated(body) => body.directional_albedo(wo),
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.directional_albedo(wo),
+            Self::Under(under) => under.albedo(),
         }
     }
-    /// Share of the light of a uniform sky that leaves: on the whole, or of coats towards the viewer.
+    /// Share of the light of a uniform sky that leaves: on the whole, or of what is below something else towards the viewer.
     pub fn albedo(&self) -> Spectrum {
         match self {
             Self::Rough { once, more, roughness } => {
@@ -92,7 +98,12 @@ impl Matte {
             Self::Coated(body) => body.albedo(),
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.albedo(),
+            Self::Under(under) => under.albedo(),
         }
+    }
+    /// Whether its light leaves on the side that it does not come from.
+    pub(super) fn is_behind(&self) -> bool {
+        matches!(self, Self::Under(Under { is_behind: true, .. }))
     }
 }
 

@@ -25,7 +25,11 @@ mod matte;
 mod phong;
 mod refract;
 mod scatter;
+mod sheen_table;
+mod sheet;
 mod straight;
+mod tilted;
+mod under;
 mod view;
 
 use durer_core::{
@@ -46,13 +50,16 @@ pub use gloss::Gloss;
 pub use glossy::{Glossy, SMOOTH};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
-pub use layered::{Layered, mirrored_by_layers};
+pub use layered::{Below, Cloud, Layered, mirrored_by_layers};
 pub use lobe::Lobe;
 pub use matte::Matte;
 pub use phong::Phong;
 pub use refract::{reflect, refract};
 pub use scatter::Scattered;
+pub use sheet::Sheet;
 pub use straight::Straight;
+pub use tilted::Tilted;
+pub use under::{Under, Veil};
 pub use view::{FresnelView, LobeView, LostDraw};
 
 /// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
@@ -86,7 +93,7 @@ impl Default for Bsdf {
 
 impl Bsdf {
     /// Most lobes a material can return.
-    pub const MOST_LOBES: usize = 7;
+    pub const MOST_LOBES: usize = 8;
 
     /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
     #[must_use]
@@ -157,7 +164,11 @@ impl Bsdf {
     }
     /// True if light from the other side is scattered to this one.
     pub fn is_frosted(&self) -> bool {
-        self.lobes().any(|lobe| matches!(lobe, Lobe::Blurred(_) | Lobe::Behind { .. }))
+        self.lobes().any(|lobe| match lobe {
+            Lobe::Blurred(_) | Lobe::Behind { .. } | Lobe::Sheet(_) => true,
+            Lobe::Matte(matte) => matte.is_behind(),
+            _ => false,
+        })
     }
     /// True if no light without extent is reflected: all lobes are perfectly sharp.
     pub fn is_sharp(&self) -> bool {
@@ -173,6 +184,8 @@ impl Bsdf {
                     | Lobe::Behind { .. }
                     | Lobe::Phong(_)
                     | Lobe::Layered(_)
+                    | Lobe::Tilted(_)
+                    | Lobe::Sheet(_)
             )
         })
     }
@@ -185,6 +198,7 @@ impl Bsdf {
         let diffuse = |lobe: &Lobe| match lobe {
             Lobe::Diffuse { albedo } | Lobe::Behind { albedo } => Some(*albedo),
             Lobe::Matte(matte) => Some(matte.albedo()),
+            Lobe::Layered(layered) => Some(layered.albedo()),
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);
@@ -194,7 +208,7 @@ impl Bsdf {
     /// The share of the glossy lobes that [`Bsdf::branches`] does not carry, if there is any; several lobes are seen as
     /// one whose `alpha` is their weighted mean.
     pub fn glossy(&self, wo: Vector3) -> Option<GlossyView> {
-        let views = self.lobes().filter_map(|lobe| lobe.look()?.view(wo));
+        let views = self.lobes().filter_map(|lobe| lobe.seen_glossy(wo));
         let seen = views.reduce(|a, b| {
             let (wa, wb) = (a.weight.mean(), b.weight.mean());
             let alpha = (a.alpha * wa + b.alpha * wb) / (wa + wb);
@@ -223,8 +237,8 @@ impl Bsdf {
     /// Whether directions can be drawn from a lobe.
     pub fn spreads(&self) -> bool {
         self.lobes().any(|lobe| match lobe {
-            Lobe::Gloss(_) | Lobe::Blurred(_) | Lobe::Phong(_) | Lobe::Layered(_) => true,
-            Lobe::Glossy(glossy) => glossy.spreads(),
+            Lobe::Gloss(_) | Lobe::Blurred(_) | Lobe::Phong(_) | Lobe::Layered(_) | Lobe::Sheet(_) => true,
+            Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
             _ => false,
         })
     }

@@ -13,7 +13,7 @@ use durer_core::{
 };
 use std::f32::consts::{FRAC_1_PI, PI};
 
-use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Facets, Lobe};
+use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Facets, Lobe, Tilted};
 
 /// A direction that a path goes on in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,9 +108,27 @@ impl Bsdf {
         (pdf > 0.0 && !weight.is_black()).then_some(Scattered { pdf: Some(pdf), weight, ..common })
     }
 
+    /// Whether [`Bsdf::scatter`] has a choice among lobes, or among the ways of one.
+    pub fn has_choice(&self) -> bool {
+        match self.lobes[..self.count] {
+            [Some(Lobe::Diffuse { .. } | Lobe::Behind { .. } | Lobe::Matte(_))] => false,
+            [Some(Lobe::Glossy(glossy))] => !glossy.spreads(),
+            _ => true,
+        }
+    }
+
     /// Value of all lobes that spread, without the cosine, as radiance, and the density with which [`Bsdf::scatter`] gives
     /// this direction; 1/sr both. Highlights beside mirrors are left out: the mirrors show what casts them.
     pub fn eval_with_pdf(&self, wo: Vector3, wi: Vector3) -> (Spectrum, f32) {
+        if let [Some(lobe)] = &self.lobes[..self.count] {
+            // PERF: what shares with nothing is not weighed (bench render).
+            let density = lobe.density(wo, wi);
+            if density <= 0.0 {
+                return (Spectrum::BLACK, 0.0);
+            }
+            let f = lobe.eval(wo, wi) * lobe.compression(wo, on_side(wo, wi));
+            return (self.arriving * f, density);
+        }
         let (mut f, mut pdf, mut total) = (Spectrum::BLACK, 0.0, 0.0);
         let shows = self.shows_lights();
         let kind = on_side(wo, wi);
@@ -181,11 +199,11 @@ impl Lobe {
             Self::Diffuse { albedo } | Self::Behind { albedo } => albedo.mean(),
             Self::Matte(matte) => matte.directional_albedo(wo).mean(),
             Self::Phong(phong) => phong.specular.mean(),
-            Self::Layered(layered) => {
-                layered.look().reflectance.ends().0.mean() * layered.passed(wo) * layered.scale
-            }
+            Self::Layered(layered) => layered.strength(wo),
             Self::Highlight(highlight) => highlight.specular.mean(),
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
+            Self::Tilted(tilted) => tilted.directional_albedo(wo).mean() * tilted.glossy.scale,
+            Self::Sheet(sheet) => sheet.passed(wo).mean(),
             Self::Mirror { weight } | Self::PassThrough { weight } => weight.mean(),
             Self::Gloss(gloss) => gloss.weight.mean(),
             Self::Interface(interface) => interface.strength(wo),
@@ -206,9 +224,13 @@ impl Lobe {
                 cosine(-wo, *albedo, u).map(|own| OfLobe { kind: BranchKind::Transmission, ..own })
             }
             Self::Matte(matte) => {
-                let own = cosine(wo, Spectrum::ONE, u)?;
+                let (from, kind) = match matte.is_behind() {
+                    true => (-wo, BranchKind::Transmission),
+                    false => (wo, BranchKind::Reflection),
+                };
+                let own = cosine(from, Spectrum::ONE, u)?;
                 let weight = matte.eval(wo, own.wi) * PI;
-                (!weight.is_black()).then_some(OfLobe { weight, ..own })
+                (!weight.is_black()).then_some(OfLobe { kind, weight, ..own })
             }
             Self::Phong(phong) => phong.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Layered(layered) if alone => layered.draw(wo, choice, u).as_ref().map(OfLobe::drawn),
@@ -228,10 +250,13 @@ impl Lobe {
                     .filter(|_| pdf > 0.0)
             }
             Self::Glossy(glossy) if glossy.spreads() => glossy.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Sheet(sheet) => sheet.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Gloss(gloss) => Some(OfLobe::drawn(&gloss.draw(wo, u))),
             Self::Blurred(blurred) => blurred.scatter(wo, choice, u),
             Self::Ambient { .. }
             | Self::Glossy(_)
+            | Self::Tilted(_)
             | Self::Mirror { .. }
             | Self::Interface(_)
             | Self::PassThrough { .. } => sharp(),
@@ -240,14 +265,17 @@ impl Lobe {
 
     fn regularize(&mut self) {
         match self {
-            Self::Glossy(glossy) => glossy.facets = glossy.facets.map(blurred),
+            Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) => {
+                glossy.facets = glossy.facets.map(blurred);
+            }
+            Self::Sheet(sheet) => sheet.regularize(blurred),
             Self::Interface(interface) => {
                 let blur = Blur::Microfacet(Facets::round(blurred(0.0)));
                 *self = Self::Blurred(Blurred { interface: *interface, blur });
             }
             Self::Layered(layered) => {
                 layered.coat = layered.coat.map(blurred);
-                layered.metal = layered.metal.map(blurred);
+                layered.below = layered.below.map(blurred);
             }
             Self::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => *facets = facets.map(blurred),
             _ => {}
@@ -257,19 +285,23 @@ impl Lobe {
     /// Density of [`Lobe::scatter`] at `wi`, 1/sr; 0 where it is sharp.
     fn density(&self, wo: Vector3, wi: Vector3) -> f32 {
         match self {
-            Self::Diffuse { .. } | Self::Matte(_) if wo.z * wi.z > 0.0 => wi.z.abs() * FRAC_1_PI,
+            Self::Diffuse { .. } if wo.z * wi.z > 0.0 => wi.z.abs() * FRAC_1_PI,
             Self::Behind { .. } if wo.z * wi.z < 0.0 => wi.z.abs() * FRAC_1_PI,
+            Self::Matte(matte) if (wo.z * wi.z > 0.0) != matte.is_behind() => wi.z.abs() * FRAC_1_PI,
             Self::Phong(phong) => phong.pdf(wo, wi),
             Self::Layered(layered) => layered.pdf(wo, wi),
             Self::Highlight(highlight) => highlight.pdf(wo, wi),
             Self::Glossy(glossy) if glossy.spreads() => glossy.pdf(wo, wi),
             Self::Gloss(gloss) => gloss.pdf(wo, wi),
+            Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.pdf(wo, wi),
+            Self::Sheet(sheet) => sheet.pdf(wo, wi),
             Self::Blurred(blurred) => blurred.density(wo, wi),
             Self::Diffuse { .. }
             | Self::Matte(_)
             | Self::Behind { .. }
             | Self::Ambient { .. }
             | Self::Glossy(_)
+            | Self::Tilted(_)
             | Self::Mirror { .. }
             | Self::Interface(_)
             | Self::PassThrough { .. } => 0.0,

@@ -34,7 +34,10 @@ impl Bsdf {
 impl Lobe {
     fn straight(&self, wo: Vector3, how: Straight) -> Spectrum {
         match self {
-            Self::Interface(_) | Self::Blurred(_) if how == Straight::Clear => Spectrum::BLACK,
+            Self::Interface(_) | Self::Blurred(_) | Self::Sheet(_) if how == Straight::Clear => {
+                Spectrum::BLACK
+            }
+            Self::Sheet(sheet) => sheet.passed(wo),
             Self::Interface(interface) => interface.straight(wo, how),
             Self::Blurred(blurred) => blurred.interface.straight(wo, how),
             Self::PassThrough { weight } => *weight,
@@ -47,6 +50,7 @@ impl Lobe {
             | Self::Behind { .. }
             | Self::Phong(_)
             | Self::Layered(_)
+            | Self::Tilted(_)
             | Self::Mirror { .. } => Spectrum::BLACK,
         }
     }

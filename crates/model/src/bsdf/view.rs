@@ -54,10 +54,13 @@ impl Lobe {
             Self::Interface(_) => "glass",
             Self::Gloss(_) => "gloss",
             Self::Blurred(_) => "frosted",
+            Self::Matte(matte) if matte.is_behind() => "translucent",
             Self::Matte(_) => "matte",
             Self::Behind { .. } => "translucent",
             Self::Phong(_) => "phong",
             Self::Layered(_) => "layered",
+            Self::Tilted(_) => "tilted",
+            Self::Sheet(_) => "sheet",
             Self::PassThrough { .. } => "clear",
         }
     }
@@ -88,10 +91,14 @@ impl Lobe {
             Self::Mirror { weight } => LobeView { reflectance: *weight, ..none },
             Self::Gloss(g) => LobeView { reflectance: g.weight, exponent: Some(g.exponent), ..none },
             Self::PassThrough { weight } => LobeView { transmittance: *weight, ..none },
+            Self::Matte(matte) if matte.is_behind() => LobeView { transmittance: matte.albedo(), ..none },
             Self::Matte(matte) => LobeView { reflectance: matte.albedo(), ..none },
+            Self::Sheet(sheet) => {
+                LobeView { transmittance: self.tint(), alpha: Some(sheet.glossy().facets.alpha()), ..none }
+            }
             Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
             Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
-            Self::Layered(_) => LobeView {
+            Self::Layered(_) | Self::Tilted(_) => LobeView {
                 reflectance: self.tint(),
                 alpha: self.look().map(|glossy| glossy.facets.alpha()),
                 ..none

@@ -4,11 +4,14 @@
 //!
 //! A point at depth `z` is blurred to a disc of diameter `A |z - z_f| / z` on the plane in focus at depth `z_f`, with the
 //! lens's diameter `A`. An f-number `N` stands for a diameter of `f / N`.
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
+use std::f32::consts::{FRAC_PI_2, TAU};
 
-use durer_core::math::{
-    Point2, Point3, Ray, Vector3,
-    float::{cos, sin},
+use durer_core::{
+    math::{
+        Point2, Point3, Ray, Vector3,
+        float::{cos, sin},
+    },
+    sampling::concentric_polar,
 };
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
 
@@ -182,15 +185,9 @@ impl Lens {
     }
 }
 
-/// The square to the unit disk by its rings (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square"):
-/// radius, and angle in turns from 0 to 1.
+/// The square to the unit disk: radius, and angle in turns from 0 to 1.
 fn disk(u: Point2) -> (f32, f32) {
-    let (a, b) = (2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
-    if a == 0.0 && b == 0.0 {
-        return (0.0, 0.0);
-    }
-    let (r, angle) =
-        if a.abs() > b.abs() { (a, FRAC_PI_4 * (b / a)) } else { (b, FRAC_PI_2 - FRAC_PI_4 * (a / b)) };
+    let (r, angle) = concentric_polar(u);
     let turn = angle / TAU + if r < 0.0 { 0.5 } else { 0.0 };
     (r.abs(), if turn < 0.0 { turn + 1.0 } else { turn })
 }

@@ -3,7 +3,7 @@
 //!
 //! Luminance and chromaticity are those of the zenith times `F(theta, gamma) / F(0, theta_s)` with the function of Perez et al.
 //! 1993, `F = (1 + A exp(B / cos theta)) (1 + C exp(D gamma) + E cos² gamma)`: `theta` is the angle from the zenith, `gamma` that
-//! from the sun, `theta_s` the sun's from the zenith. One unit is 1 kcd/m². The sun itself is another light (`sun.rs`).
+//! from the sun, `theta_s` the sun's from the zenith. The sun itself is another light (`sun.rs`), which says what the units are.
 use std::{f64::consts::PI, sync::Arc};
 
 use durer_core::{glam::DVec3, math::Vector3, spectrum::Color};
@@ -39,8 +39,12 @@ impl Kind for Sky {
                 "Reflectance of the ground, which is all that is below the horizon.",
             )
             .range(0.0, 1.0),
-            ParamSpec::float("scale", 1.0, "Factor on the radiance, whose luminance is in kcd/m².")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::float(
+                "scale",
+                1.0,
+                "Factor on the radiance: 1 exposes for full sun, 39.3 makes it kcd/m².",
+            )
+            .range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "sunlight",
                 ParamType::Bool,
@@ -58,7 +62,8 @@ impl Kind for Sky {
             if args.bool("sunlight") { direct * (sun.dot(up).max(0.0) as f32) } else { Color::BLACK };
         let ground = args.color("ground") * ((daylight.irradiance() + direct) * std::f32::consts::FRAC_1_PI);
         let image = Arc::new(daylight.picture(ground));
-        Some(Box::new(Infinite::of_picture(image, Layout::LatitudeLongitude, args.float("scale"))))
+        let scale = args.float("scale") / sun::WHITE;
+        Some(Box::new(Infinite::of_picture(image, Layout::LatitudeLongitude, scale)))
     }
 }
 
@@ -124,7 +129,7 @@ impl Daylight {
         Self { up, sun, zenith, perez }
     }
 
-    /// The radiance of the sky in unit direction `d`, of which it is above the horizon.
+    /// The radiance of the sky in unit direction `d`, of which it is above the horizon, kcd/m².
     fn at(&self, d: DVec3) -> Color {
         let cos = d.dot(self.up).max(1e-3);
         let gamma = libm::atan2(d.cross(self.sun).length(), d.dot(self.sun));

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Layered, Lobe, Reflectance, mirrored_by_layers},
+    bsdf::{Below, Bsdf, Lobe, Reflectance, mirrored_by_layers},
 };
 
 /// A metal under a coat.
@@ -76,26 +76,18 @@ impl Material for CoatedConductor {
         let (coat, below) =
             (self.coat_roughness.facets(cx, surface), self.metal_roughness.facets(cx, surface));
         let cos = surface.n_s.dot(wo).abs().min(1.0);
-        let Layers { eta, thickness, bounces, walks } = self.layers;
-        if coat.is_smooth() && below.is_smooth() {
-            let weight = mirrored_by_layers(cos, eta, thickness, metal, bounces);
-            return Bsdf::default().with(Lobe::Mirror { weight });
-        }
-        let (metal_eta, metal_k) = match metal {
+        let Layers { eta, thickness, cloud, .. } = self.layers;
+        let is_sharp = coat.is_smooth() && below.is_smooth();
+        let (metal_eta, k) = match metal {
             Reflectance::Index { eta, k } => (eta, k),
             Reflectance::Schlick { .. } => (Spectrum::ONE, Spectrum::BLACK),
         };
-        let layered = Layered {
-            eta,
-            coat,
-            thickness,
-            metal_eta,
-            metal_k,
-            metal: below,
-            bounces: bounces as u16,
-            walks: walks as u16,
-            scale: 1.0,
-        };
+        let layered = self.layers.walked(cx, coat, Below::Metal { eta: metal_eta, k, facets: below });
+        if is_sharp {
+            let weight = mirrored_by_layers(cos, eta, thickness, metal, self.layers.bounces);
+            let mirror = Bsdf::default().with(Lobe::Mirror { weight });
+            return if cloud.is_some() { mirror.with(Lobe::Layered(layered)) } else { mirror };
+        }
         Bsdf::default().with(Lobe::Layered(layered)).with(reflecting(Reflectance::dielectric(eta), coat, cos))
     }
 }

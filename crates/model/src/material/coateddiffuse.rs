@@ -1,13 +1,14 @@
 //! A matte body under a clear coat: varnished wood, plastic, glazed pottery.
 //!
-//! pbrt-v4's model of two layers, by the closed form that it has over Lambert's body: see `bsdf/coat.rs`.
+//! pbrt-v4's model of two layers, by the closed form that it has over Lambert's body: see `bsdf/coat.rs`; by a random walk where
+//! light scatters in the coat (`bsdf/layered.rs`).
 use durer_core::{math::Vector3, spectrum::Color};
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Material, conductor::reflecting, detail::Detail, roughness::Roughness, share, share_input};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Bsdf, Coat, Lobe, Matte, Reflectance},
+    bsdf::{Below, Bsdf, Cloud, Coat, Facets, Layered, Lobe, Matte, Reflectance},
 };
 
 /// The coat's parameters that both coated materials have.
@@ -17,7 +18,9 @@ pub(super) struct Layers {
     pub(super) thickness: f32,
     /// How often a walk meets what is below the coat.
     pub(super) bounces: u32,
-    pub(super) walks: u32,
+    walks: u32,
+    /// Albedo and asymmetry of what scatters in the coat, if anything does.
+    pub(super) cloud: Option<(Color, f32)>,
 }
 
 impl Layers {
@@ -34,11 +37,11 @@ impl Layers {
     pub(super) const ALBEDO: ParamSpec = ParamSpec::color(
         "albedo",
         [0.0; 3],
-        "Of what is in the coat; other values than 0 are not supported yet: it absorbs only.",
+        "Share of light that what is in the coat scatters; at 0 it only absorbs.",
     )
     .range(0.0, f32::INFINITY);
     pub(super) const G: ParamSpec =
-        ParamSpec::float("g", 0.0, "Asymmetry of what is in the coat; without effect while albedo is 0.")
+        ParamSpec::float("g", 0.0, "Mean cosine of the deflection where light is scattered in the coat.")
             .range(-1.0, 1.0);
     pub(super) const MAX_DEPTH: ParamSpec = ParamSpec::new(
         "maxdepth",
@@ -56,14 +59,28 @@ impl Layers {
     .range(1.0, 1000.0);
 
     pub(super) fn read(args: &mut Args<'_>, eta: &str) -> Self {
-        if args.color("albedo") != Color::BLACK {
-            args.warning("albedo", "light that scatters within a coat is not supported yet; it only absorbs");
-        }
+        let albedo = args.color("albedo");
         Self {
             eta: args.index(eta),
             thickness: args.float("thickness"),
             bounces: (args.int("maxdepth") as u32).div_ceil(2),
             walks: args.int("nsamples") as u32,
+            cloud: (albedo != Color::BLACK).then(|| (albedo, args.float("g"))),
+        }
+    }
+
+    /// The walk below a coat of these facets.
+    pub(super) fn walked(&self, cx: &ShadeCx<'_>, coat: Facets, below: Below) -> Layered {
+        let cloud = self.cloud.map_or(Cloud::NONE, |(albedo, g)| Cloud::new(cx.basis.reflectance(albedo), g));
+        Layered {
+            eta: self.eta,
+            coat,
+            thickness: self.thickness,
+            cloud,
+            below,
+            bounces: self.bounces as u16,
+            walks: self.walks as u16,
+            scale: 1.0,
         }
     }
 }
@@ -119,6 +136,11 @@ impl Material for CoatedDiffuse {
         let albedo = share(cx, self.reflectance, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
+        if self.layers.cloud.is_some() {
+            let layered = self.layers.walked(cx, facets, Below::Matte { albedo });
+            let outside = reflecting(Reflectance::dielectric(self.layers.eta), facets, cos);
+            return Bsdf::default().with(Lobe::Layered(layered)).with(outside);
+        }
         Bsdf::default()
             .with(Lobe::Matte(Matte::Coated(self.coat.body(albedo, &facets, self.layers.bounces, cos))))
             .with(reflecting(Reflectance::dielectric(self.layers.eta), facets, cos))

@@ -18,6 +18,8 @@ pub struct Mix {
     materials: [Box<dyn Material>; 2],
     /// Share of the second.
     amount: FloatInput,
+    /// If set there is the second alone where its share is at least this, and the first alone elsewhere.
+    cutoff: Option<f32>,
 }
 
 impl Kind for Mix {
@@ -44,13 +46,24 @@ impl Kind for Mix {
         let mut named = |word: &str| args.build_named("materials", word, MATERIALS);
         let (first, second) = (named(first), named(second));
         let amount = args.float_input("amount");
-        Some(Box::new(Self { materials: [first?, second?], amount }))
+        Some(Box::new(Self::new([first?, second?], amount, None)))
     }
 }
 
 impl Mix {
+    /// The share `amount` of the second material, or with a `cutoff` either of them.
+    pub(super) fn new(materials: [Box<dyn Material>; 2], amount: FloatInput, cutoff: Option<f32>) -> Self {
+        Self { materials, amount, cutoff }
+    }
     fn share(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        cx.float(self.amount, at).clamp(0.0, 1.0)
+        // Holes are found in points: an average would count those in it twice.
+        let at = if self.has_holes() { at.as_point() } else { *at };
+        let share = cx.float(self.amount, &at).clamp(0.0, 1.0);
+        match self.cutoff {
+            Some(cutoff) if share < cutoff => 0.0,
+            Some(_) => 1.0,
+            None => share,
+        }
     }
     /// The lobes of one of them; of a hole, that light goes on.
     fn one(&self, which: usize, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
@@ -106,6 +119,11 @@ impl Material for Mix {
     }
     fn has_holes(&self) -> bool {
         self.any(|material| material.has_holes())
+    }
+    fn coverage(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        let t = self.share(cx, at);
+        let [first, second] = self.materials.each_ref().map(|material| material.coverage(cx, at));
+        first * (1.0 - t) + second * t
     }
     fn is_hole(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> bool {
         let t = self.share(cx, at);

@@ -11,6 +11,7 @@ mod dielectric;
 mod diffuse;
 mod diffusetransmission;
 mod interface;
+mod mask;
 mod mirror;
 mod mix;
 mod normal_map;
@@ -34,6 +35,7 @@ pub use self::{
     diffuse::Diffuse,
     diffusetransmission::DiffuseTransmission,
     interface::Interface,
+    mask::Mask,
     mirror::Mirror,
     mix::Mix,
     phong::Phong,
@@ -79,6 +81,10 @@ pub trait Material: Debug + Send + Sync {
         let _ = (cx, at);
         false
     }
+    /// Share of the surface that is there at a point, 0 in a hole: what of its light as a lamp is left.
+    fn coverage(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        if self.has_holes() && self.is_hole(cx, at) { 0.0 } else { 1.0 }
+    }
 }
 
 /// All kinds of material.
@@ -96,6 +102,7 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<DiffuseTransmission>(),
     Entry::of::<Phong>(),
     Entry::of::<Mix>(),
+    Entry::of::<Mask>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.

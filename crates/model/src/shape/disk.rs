@@ -1,14 +1,12 @@
 //! Disk, ring or sector of one, perpendicular to the z axis (Physically Based Rendering, 4th edition, section 6.4).
 //!
 //! `t = (h - o_z) / d_z`; a hit counts if `r_i^2 <= x^2 + y^2 <= r^2` and `0 <= phi <= phi_max`.
-use std::{
-    f32::consts::TAU,
-    f64::consts::{FRAC_PI_2, FRAC_PI_4},
-};
+use std::f32::consts::TAU;
 
 use durer_core::{
     glam::DVec3,
     math::{Bounds3, Point2, Point3, Ray, Vector3},
+    sampling::concentric_disk,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
@@ -76,12 +74,11 @@ impl Shape for Disk {
         Outline::Curved
     }
 
-    /// A whole disk keeps squares square (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square"); of rings
-    /// and sectors the square of the radius is uniform.
+    /// Squares of a whole disk become rings; of rings and sectors the square of the radius is uniform.
     fn by_area(&self, u: Point2) -> Option<AreaPoint> {
         let (outer, inner) = (f64::from(self.radius), f64::from(self.inner_radius));
         let (x, y) = if inner == 0.0 && self.phi_max == TAU {
-            let (x, y) = concentric(u);
+            let [x, y] = concentric_disk(u).map(f64::from);
             (x * outer, y * outer)
         } else {
             let r = (inner * inner + (outer * outer - inner * inner) * f64::from(u.x)).sqrt();
@@ -96,18 +93,6 @@ impl Shape for Disk {
         let (outer, inner) = (f64::from(self.radius), f64::from(self.inner_radius));
         2.0 / (f64::from(self.phi_max) * (outer - inner) * (outer + inner))
     }
-}
-
-/// The point of the unit disk for one of the unit square.
-fn concentric(u: Point2) -> (f64, f64) {
-    let (x, y) = (2.0 * f64::from(u.x) - 1.0, 2.0 * f64::from(u.y) - 1.0);
-    if x == 0.0 && y == 0.0 {
-        return (0.0, 0.0);
-    }
-    let (r, angle) =
-        if x.abs() > y.abs() { (x, FRAC_PI_4 * (y / x)) } else { (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)) };
-    let (sin, cos) = libm::sincos(angle);
-    (r * cos, r * sin)
 }
 
 impl Kind for Disk {

@@ -48,23 +48,26 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, [u, v]: [f32; 2], time: f32) -> Surf
 
     let normals = mesh.corner_normals(vertices, time);
     let shading = normals.map(|n| Normal3::from(weights.mean(n.map(Normal3::to_array)))).and_then(unit);
-    let winding = unit(Normal3::from_f64((p1 - p0).cross(p2 - p0).normalize_or_zero()));
+    let winding = Some(Normal3::from_f64((p1 - p0).cross(p2 - p0).normalize_or_zero()));
+    let winding = winding.filter(|n| *n != Normal3::ZERO);
     let n_g = match (winding, shading) {
         (Some(n), Some(s)) => n.face_forward(s),
         (Some(n), None) | (None, Some(n)) => n,
         (None, None) => Normal3::new(0.0, 0.0, 1.0),
     };
     let n_s = shading.unwrap_or(n_g);
-    let uvs = match mesh.uvs.as_slice() {
-        [] => [Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(1.0, 1.0)],
-        uvs => vertices.map(|i| uvs[i]),
+    let (uv, along) = match mesh.uvs.as_slice() {
+        // As if the corners were at (0, 0), (1, 0) and (1, 1).
+        [] => (Point2::new(u + v, v), spanning(p1 - p0, p2 - p1)),
+        uvs => {
+            let uvs = vertices.map(|i| uvs[i]);
+            (Point2::from(weights.mean(uvs.map(Point2::to_array))), partials([p0, p1, p2], uvs))
+        }
     };
-    let uv = Point2::from(weights.mean(uvs.map(Point2::to_array)));
-    let (dpdu, dpdv) =
-        tangents(mesh, &weights, n_s).or_else(|| partials([p0, p1, p2], uvs)).unwrap_or_else(|| {
-            let frame = Frame::from_z(n_g);
-            (frame.x, frame.y)
-        });
+    let (dpdu, dpdv) = tangents(mesh, &weights, n_s).or(along).unwrap_or_else(|| {
+        let frame = Frame::from_z(n_g);
+        (frame.x, frame.y)
+    });
     Surface {
         p,
         p_error,
@@ -101,8 +104,13 @@ fn partials([p0, p1, p2]: [DVec3; 3], uvs: [Point2; 3]) -> Option<(Vector3, Vect
     let (du02, dv02, du12, dv12) = (u0 - u2, v0 - v2, u1 - u2, v1 - v2);
     let (dp02, dp12) = (p0 - p2, p1 - p2);
     let determinant = du02 * dv12 - dv02 * du12;
-    let dpdu = Vector3::from_f64((dp02 * dv12 - dp12 * dv02) / determinant);
-    let dpdv = Vector3::from_f64((dp12 * du02 - dp02 * du12) / determinant);
-    let spans = dpdu.to_f64().cross(dpdv.to_f64()).length_squared() > 0.0;
-    (spans && dpdu.is_finite() && dpdv.is_finite()).then_some((dpdu, dpdv))
+    let per = 1.0 / determinant;
+    spanning((dp02 * dv12 - dp12 * dv02) * per, (dp12 * du02 - dp02 * du12) * per)
+}
+
+/// Both in f32; `None` if they span no area.
+fn spanning(dpdu: DVec3, dpdv: DVec3) -> Option<(Vector3, Vector3)> {
+    let (dpdu, dpdv) = (Vector3::from_f64(dpdu), Vector3::from_f64(dpdv));
+    let area2 = dpdu.to_f64().cross(dpdv.to_f64()).length_squared();
+    (area2 > 0.0 && area2 < f64::INFINITY).then_some((dpdu, dpdv))
 }

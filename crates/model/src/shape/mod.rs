@@ -129,9 +129,13 @@ pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<TriangleMesh>(),
 ];
 
-/// What every shape of pbrt takes; importers warn about it.
-const ALPHA: ParamSpec =
-    ParamSpec::new("alpha", ParamType::FloatTexture, ParamDefault::Unset, "Cut-outs; not supported yet.");
+/// What every shape of pbrt takes; importers make its material a mask.
+const ALPHA: ParamSpec = ParamSpec::new(
+    "alpha",
+    ParamType::FloatTexture,
+    ParamDefault::Unset,
+    "Share of the surface that is there, 0 to 1: the alpha of a material \"mask\".",
+);
 
 /// `t` rounded, if it lies in the ray's interval and beyond its lower end by more than `error`, the bound on what is
 /// wrong with it, and by more than rounding it changes it.

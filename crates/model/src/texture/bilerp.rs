@@ -4,7 +4,7 @@ use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
     Texture, TextureAt, Value,
-    mapping::{MAPPING, Mapping, U_DELTA, U_SCALE, UV_SET, V_DELTA, V_SCALE, V1, V2},
+    mapping::{Mapping, mapped},
 };
 use crate::ShadeCx;
 
@@ -47,20 +47,12 @@ impl<V: Value> Kind for Bilerp<V> {
         name: "bilerp",
         aliases: &[],
         doc: "Four values, interpolated between the corners of the unit square of texture space, and on beyond it.",
-        params: &[
+        params: &mapped::<4, 12>([
             ParamSpec::new("v00", V::TYPE, V::ZERO, "At (0, 0)."),
             ParamSpec::new("v01", V::TYPE, V::ONE, "At (0, 1)."),
             ParamSpec::new("v10", V::TYPE, V::ZERO, "At (1, 0)."),
             ParamSpec::new("v11", V::TYPE, V::ONE, "At (1, 1)."),
-            UV_SET,
-            U_SCALE,
-            V_SCALE,
-            U_DELTA,
-            V_DELTA,
-            MAPPING,
-            V1,
-            V2,
-        ],
+        ]),
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let mapping = Mapping::read(args);

@@ -11,7 +11,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
     Filters, Footprint, Texture, TextureAt, Value,
-    mapping::{MAPPING, Mapping, Space, U_DELTA, U_SCALE, UV_SET, V_DELTA, V_SCALE, V1, V2},
+    mapping::{Mapping, Space, mapped},
 };
 use crate::ShadeCx;
 
@@ -134,17 +134,9 @@ impl<V: Value> Kind for Checkerboard<V> {
         name: "checkerboard",
         aliases: &[],
         doc: "Two values or textures on alternating unit squares of texture space, or unit cubes; tex1 in [0, 1)² or [0, 1)³.",
-        params: &[
+        params: &mapped::<4, 12>([
             ParamSpec::new("tex1", V::TYPE, V::ONE, "On squares whose coordinates add up to an even number."),
             ParamSpec::new("tex2", V::TYPE, V::ZERO, "On the other squares."),
-            UV_SET,
-            U_SCALE,
-            V_SCALE,
-            U_DELTA,
-            V_DELTA,
-            MAPPING,
-            V1,
-            V2,
             ParamSpec::new(
                 "dimension",
                 ParamType::Int,
@@ -159,7 +151,7 @@ impl<V: Value> Kind for Checkerboard<V> {
                 "Whether edges are averaged over a sample's footprint. Default: as pbrt (tent) with the integrators path and \
                  direct, none with the others.",
             ),
-        ],
+        ]),
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let board = match args.int("dimension") {

@@ -7,7 +7,7 @@ use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
     Texture, TextureAt, Value,
-    mapping::{MAPPING, Mapping, U_DELTA, U_SCALE, UV_SET, V_DELTA, V_SCALE, V1, V2},
+    mapping::{Mapping, mapped},
     noise::noise,
 };
 use crate::ShadeCx;
@@ -64,18 +64,10 @@ impl<V: Value> Kind for Dots<V> {
         name: "dots",
         aliases: &[],
         doc: "Dots of radius 0.35 at random places of texture space, one at most in each unit square.",
-        params: &[
+        params: &mapped::<2, 10>([
             ParamSpec::new("inside", V::TYPE, V::ONE, "In the dots."),
             ParamSpec::new("outside", V::TYPE, V::ZERO, "Between them."),
-            UV_SET,
-            U_SCALE,
-            V_SCALE,
-            U_DELTA,
-            V_DELTA,
-            MAPPING,
-            V1,
-            V2,
-        ],
+        ]),
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let mapping = Mapping::read(args);

@@ -61,43 +61,58 @@ impl Space {
 }
 
 /// The words of pbrt's mappings.
-pub(super) const MAPPING: ParamSpec = ParamSpec::new(
+const MAPPING: ParamSpec = ParamSpec::new(
     "mapping",
     ParamType::Choice(&["uv", "spherical", "cylindrical", "planar"]),
     ParamDefault::Text("uv"),
     "What texture coordinates are made from: those of the surface, or the point in the texture's own space.",
 );
 /// For u of the planar mapping.
-pub(super) const V1: ParamSpec = ParamSpec::new(
+const V1: ParamSpec = ParamSpec::new(
     "v1",
     ParamType::Vector3,
     ParamDefault::Triple([1.0, 0.0, 0.0]),
     "Planar: u is the component along it.",
 );
 /// For v of the planar mapping.
-pub(super) const V2: ParamSpec = ParamSpec::new(
+const V2: ParamSpec = ParamSpec::new(
     "v2",
     ParamType::Vector3,
     ParamDefault::Triple([0.0, 1.0, 0.0]),
     "Planar: v is the component along it.",
 );
 /// Factor of u.
-pub(super) const U_SCALE: ParamSpec = ParamSpec::float("uscale", 1.0, "Factor of u.");
+const U_SCALE: ParamSpec = ParamSpec::float("uscale", 1.0, "Factor of u.");
 /// Factor of v.
-pub(super) const V_SCALE: ParamSpec = ParamSpec::float("vscale", 1.0, "Factor of v.");
+const V_SCALE: ParamSpec = ParamSpec::float("vscale", 1.0, "Factor of v.");
 /// Added to u.
-pub(super) const U_DELTA: ParamSpec = ParamSpec::float("udelta", 0.0, "Added to u after scaling.");
+const U_DELTA: ParamSpec = ParamSpec::float("udelta", 0.0, "Added to u after scaling.");
 /// Added to v.
-pub(super) const V_DELTA: ParamSpec = ParamSpec::float("vdelta", 0.0, "Added to v after scaling.");
+const V_DELTA: ParamSpec = ParamSpec::float("vdelta", 0.0, "Added to v after scaling.");
 /// Which surface coordinates.
-pub(super) const UV_SET: ParamSpec = ParamSpec::new(
+const UV_SET: ParamSpec = ParamSpec::new(
     "uvset",
     ParamType::Int,
     ParamDefault::Int(0),
     "Which texture coordinates of a mesh: 0 the first, 1 the second; a shape with one set has it twice.",
 )
 .range(0.0, 1.0);
-/// All six coefficients.
+/// The parameters of [`Mapping::read`].
+const PARAMS: [ParamSpec; 8] = [UV_SET, U_SCALE, V_SCALE, U_DELTA, V_DELTA, MAPPING, V1, V2];
+
+/// The parameters `own` of a texture, then those of its mapping; `ALL` is how many that makes.
+pub(super) const fn mapped<const OWN: usize, const ALL: usize>(own: [ParamSpec; OWN]) -> [ParamSpec; ALL] {
+    assert!(ALL == OWN + PARAMS.len(), "a number of all parameters that is not right");
+    let mut all = [PARAMS[0]; ALL];
+    let mut i = 0;
+    while i < ALL {
+        all[i] = if i < OWN { own[i] } else { PARAMS[i - OWN] };
+        i += 1;
+    }
+    all
+}
+
+/// All six coefficients, where a kind has them.
 pub(super) const UV_MATRIX: ParamSpec = ParamSpec::new(
     "uvmatrix",
     ParamType::Floats,
@@ -106,7 +121,7 @@ pub(super) const UV_MATRIX: ParamSpec = ParamSpec::new(
 );
 
 impl Mapping {
-    /// From the parameters above (`uvmatrix` only where the kind has it); complains if they contradict each other.
+    /// From the parameters above; complains if they contradict each other.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         let word = args.text("mapping");
         let unused: &[&str] = match word {

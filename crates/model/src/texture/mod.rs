@@ -61,6 +61,14 @@ pub struct TextureAt {
     pub footprint: Footprint,
 }
 
+impl TextureAt {
+    /// The point alone.
+    #[must_use]
+    pub fn as_point(&self) -> Self {
+        Self { footprint: Footprint::POINT, ..*self }
+    }
+}
+
 /// Whether a texture averages over footprints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Filters {

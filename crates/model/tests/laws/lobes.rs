@@ -2,8 +2,8 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Blur, Blurred, Bounced, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe, Matte, Phong,
-    Reflectance, Sheen, Split,
+    Below, Blur, Blurred, Bounced, Cloud, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe,
+    Matte, Phong, Reflectance, Sheen, Sheet, Split, Tilted, Under, Veil,
 };
 
 /// Grey of a value.
@@ -41,17 +41,17 @@ pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
 
 /// Metal below a coat.
 pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
-    Lobe::Layered(Layered {
-        eta: 1.5,
-        coat,
-        thickness: 0.01,
-        metal_eta: grey(0.2),
-        metal_k: grey(2.0),
-        metal,
-        bounces: 5,
-        walks: 1,
-        scale: 1.0,
-    })
+    clouded((coat, 0.01), Cloud::NONE, Below::Metal { eta: grey(0.2), k: grey(2.0), facets: metal }, 5)
+}
+
+/// Something below a coat of these facets and thickness that light scatters in.
+pub(super) fn clouded((coat, thickness): (Facets, f32), cloud: Cloud, below: Below, bounces: u16) -> Lobe {
+    Lobe::Layered(Layered { eta: 1.5, coat, thickness, cloud, below, bounces, walks: 1, scale: 1.0 })
+}
+
+/// Particles of this albedo and asymmetry.
+fn cloud(albedo: f32, g: f32) -> Cloud {
+    Cloud::new(grey(albedo), g)
 }
 
 /// What white facets of this width lose.
@@ -59,6 +59,33 @@ pub(super) fn bounced(alpha: f32) -> Lobe {
     let white = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
     let lost = Bounced::of(&white, &Facets::round(alpha)).expect("rough facets");
     Lobe::Matte(Matte::Bounced(lost))
+}
+
+/// What Schlick's formula gives glass, on facets of this width.
+fn clear(alpha: f32) -> Glossy {
+    let reflectance = Reflectance::Schlick { f0: grey(0.04), f90: Spectrum::ONE };
+    Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 }
+}
+
+/// A white body below clear facets, and a coat and fibres if they are there.
+pub(super) fn under(alpha: f32, coat: f32, sheen: f32) -> Under {
+    let veil =
+        Veil { coat, coat_alpha: 0.2, coat_normal: Vector3::new(0.36, 0.48, 0.8), sheen, sheen_alpha: 0.3 };
+    Under::new(Spectrum::ONE, &clear(alpha), veil, Vector3::new(0.6, 0.0, 0.8))
+}
+
+/// A white coat whose normal leans this way.
+pub(super) fn tilted(alpha: f32, normal: Vector3) -> Lobe {
+    let reflectance = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    let glossy = Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 };
+    Lobe::Tilted(Tilted { glossy, normal })
+}
+
+/// A rough sheet that reflects nothing.
+pub(super) fn sheet(alpha: f32) -> Lobe {
+    let none = Reflectance::Schlick { f0: Spectrum::BLACK, f90: Spectrum::BLACK };
+    let outside = Glossy { reflectance: none, ..clear(alpha) };
+    Lobe::Sheet(Sheet::below(&outside, Spectrum::ONE))
 }
 
 /// Lobes that spread, wide enough for the cells of a histogram.
@@ -92,6 +119,26 @@ pub(super) fn spread() -> Vec<Lobe> {
         layered(round(0.3), round(0.2)),
         layered(round(0.0), brushed(0.3, 0.15)),
         layered(brushed(0.2, 0.4), round(0.0)),
+        clouded((round(0.0), 0.5), cloud(1.0, 0.3), Below::Matte { albedo: grey(0.8) }, 5),
+        clouded((round(0.3), 1.0), cloud(0.9, -0.2), Below::Matte { albedo: grey(0.5) }, 5),
+        clouded(
+            (round(0.2), 0.3),
+            cloud(0.8, 0.6),
+            Below::Metal { eta: grey(0.2), k: grey(2.0), facets: round(0.2) },
+            5,
+        ),
+        clouded(
+            (round(0.0), 0.3),
+            cloud(0.8, 0.0),
+            Below::Metal { eta: grey(0.2), k: grey(2.0), facets: round(0.0) },
+            5,
+        ),
+        Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
+        Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
+        Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
+        tilted(0.25, Vector3::new(0.36, 0.48, 0.8)),
+        tilted(0.4, Vector3::new(-0.28, 0.0, 0.96)),
+        sheet(0.3),
     ]
 }
 
@@ -103,6 +150,7 @@ pub(super) fn sharp() -> Vec<Lobe> {
         Lobe::Interface(Interface::clear(1.5)),
         Lobe::PassThrough { weight: grey(0.5) },
         glossy(Facets::round(0.0)),
+        tilted(0.0, Vector3::new(0.0, 0.6, 0.8)),
     ]
 }
 
@@ -125,6 +173,9 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::PassThrough { .. } => 13,
         Lobe::Matte(Matte::Sheen(_)) => 14,
         Lobe::Matte(Matte::Bounced(_)) => 15,
+        Lobe::Matte(Matte::Under(_)) => 16,
+        Lobe::Tilted(_) => 17,
+        Lobe::Sheet(_) => 18,
     }
 }
 
@@ -133,5 +184,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..16).collect::<Vec<_>>());
+    assert_eq!(here, (0..19).collect::<Vec<_>>());
 }

@@ -4,13 +4,13 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::bsdf::{
-    Bsdf, Facets, Lobe, Matte, Phong, Reflectance, fresnel_conductor, fresnel_dielectric, mirrored_by_layers,
-    refract,
+    Below, Bsdf, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, fresnel_conductor,
+    fresnel_dielectric, mirrored_by_layers, refract,
 };
 use durer_testkit::{interface, quadrature::cosine_hemisphere, random::Random};
 
 use super::{
-    lobes::{bounced, brushed, coated, glossy, layered},
+    lobes::{bounced, brushed, clouded, coated, glossy, layered},
     sampling::energy,
     slow, v,
 };
@@ -204,6 +204,69 @@ fn white_facets_with_compensation_lose_nothing_e3() {
             let (mean, sigma) = energy(&both, seen_under(cos), 100_000, &mut random);
             // The table of single scattering is good to a percent.
             assert!((mean - 1.0).abs() < 4.0 * sigma + 0.012, "{alpha} {cos}: {mean} +- {sigma}");
+        }
+    }
+}
+
+/// The mean of an estimate about two directions.
+fn about(lobe: &Lobe, o: Vector3, i: Vector3, count: u32, random: &mut Random) -> f64 {
+    let near = |w: Vector3, random: &mut Random| v((w.to_f64() + 1e-4 * random.direction()).normalize());
+    (0..count).map(|_| f64::from(lobe.eval(near(o, random), near(i, random)).mean())).sum::<f64>()
+        / f64::from(count)
+}
+
+#[test]
+fn thin_clouds_scatter_once_as_e18_says() {
+    let mut random = Random::new(86);
+    let count = if slow() { 4_000_000 } else { 400_000 };
+    // Few particles that scatter: what is scattered twice is less than a hundredth of it.
+    let w = 0.01f32;
+    let slab = |eta: f32| Layered {
+        eta,
+        coat: Facets::round(0.0),
+        thickness: 1.0,
+        cloud: Cloud::new(Spectrum::splat(w), 0.0),
+        below: Below::Matte { albedo: Spectrum::BLACK },
+        bounces: 5,
+        walks: 1,
+        scale: 1.0,
+    };
+    let up = Vector3::new(0.0, 0.0, 1.0);
+    let lobe = Lobe::Layered(slab(1.0));
+    let (there, back) = (
+        about(&lobe, seen_under(0.5), up, count, &mut random),
+        about(&lobe, up, seen_under(0.5), count, &mut random),
+    );
+    let expected = 0.050_410 * f64::from(w);
+    for found in [there, back] {
+        assert!((found / expected - 1.0).abs() < 0.015, "{found}, expected {expected}");
+    }
+}
+
+#[test]
+fn white_clouds_over_white_bodies_lose_nothing() {
+    let mut random = Random::new(87);
+    let count = if slow() { 400_000 } else { 40_000 };
+    for (alpha, thickness, g) in [(0.0, 0.5, 0.0), (0.0, 2.0, 0.5), (0.05, 0.5, -0.4)] {
+        let coat = Facets::round(alpha);
+        let body = Below::Matte { albedo: Spectrum::ONE };
+        let inside = clouded((coat, thickness), Cloud::new(Spectrum::ONE, g), body, 300);
+        for cos in [0.95, 0.5] {
+            let outside = match alpha > 0.0 {
+                true => {
+                    let reflectance = Reflectance::dielectric(1.5);
+                    Lobe::Glossy(Glossy { reflectance, facets: coat, scale: 1.0 })
+                }
+                false => Lobe::Mirror { weight: Spectrum::splat(fresnel_dielectric(cos, 1.5)) },
+            };
+            let both = Bsdf::default().with(inside).with(outside);
+            let (mean, sigma) = energy(&both, seen_under(cos), count, &mut random);
+            // Rough facets lose what bounces between them.
+            let lost = if alpha > 0.0 { 0.01 } else { 0.0 };
+            assert!(
+                (mean - 1.0).abs() < 4.0 * sigma + 2e-3 + lost,
+                "{alpha} {thickness} {g} {cos}: {mean} +- {sigma}"
+            );
         }
     }
 }

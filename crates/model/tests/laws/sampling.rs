@@ -139,6 +139,8 @@ fn values_are_reciprocal_e5() {
             Lobe::Blurred(b) => matches!(b.blur, durer_model::bsdf::Blur::Cosine { .. }),
             // An estimate: its mean is.
             Lobe::Layered(_) => true,
+            // About a normal of its own: see below.
+            Lobe::Tilted(_) => true,
             _ => false,
         };
         if exempt {
@@ -157,6 +159,26 @@ fn values_are_reciprocal_e5() {
                 "{lobe:?} {o:?} {i:?}: {there} {back}"
             );
         }
+    }
+}
+
+#[test]
+fn tilted_layers_are_reciprocal_by_their_own_cosines() {
+    let mut random = Random::new(77);
+    for lobe in lobes::spread() {
+        let Lobe::Tilted(tilted) = lobe else { continue };
+        let mut lit = 0;
+        for _ in 0..2000 {
+            let (o, i) = (v(random.direction()), v(random.direction()));
+            let by_own_cosine = |o: Vector3, i: Vector3| {
+                let cos = i.dot(tilted.normal) * i.z.signum();
+                f64::from(tilted.eval(o, i).mean() * i.z.abs() / cos)
+            };
+            let (there, back) = (by_own_cosine(o, i), by_own_cosine(i, o));
+            assert!((there - back).abs() <= 2e-3 * there.max(back).max(1e-3), "{o:?} {i:?}: {there} {back}");
+            lit += u32::from(there > 0.0);
+        }
+        assert!(lit > 200, "{lit}");
     }
 }
 

@@ -165,7 +165,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 
 /// The integrator of a description that asks for none.
 pub fn default_integrator() -> Node {
-    Node::new("whitted", durer_scene::Params::new())
+    Node::new("path", durer_scene::Params::new())
 }
 
 /// What is used for an integrator of pbrt that we do not have: paths of as many bounces, which see most of the same light.

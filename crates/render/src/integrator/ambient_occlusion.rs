@@ -13,10 +13,10 @@ use durer_core::{
 use durer_model::Surface;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Integrator, Transport};
+use super::{Integrator, Start, Transport};
 use crate::{
     Contribution, PathRay, SampleCx, Value,
-    probe::{Choice, ChosenBy, Probe, RandomNumbers, RayKind, StopReason, TreeNode},
+    probe::{Choice, ChosenBy, Probe, RandomNumbers, RayKind, StopReason},
 };
 
 /// The integrator.
@@ -70,7 +70,7 @@ fn draw(by_cosine: bool, u: Point2) -> (Vector3, f32, f32) {
 
 impl AmbientOcclusion {
     /// What arrives along a ray, and how many were traced: from the eye what the place is worth, else 1 if it is free.
-    fn trace<P: Probe>(
+    fn follow<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
         ray: &PathRay,
@@ -137,32 +137,26 @@ impl AmbientOcclusion {
             probe.result(refused, Spectrum::BLACK);
             return (Spectrum::BLACK, 0);
         }
-        let (free, rays) = self.trace(cx, &child, RayKind::GlossyReflection, id, probe);
+        let (free, rays) = self.follow(cx, &child, RayKind::GlossyReflection, id, probe);
         (weight * free, rays)
     }
 }
 
 impl Transport for AmbientOcclusion {
-    fn sample<P: Probe>(
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let (radiance, rays) = self.trace(cx, &ray, RayKind::Eye, parent, probe);
+        let (ray, kind) = match start {
+            Start::Eye(ray) => (ray, RayKind::Eye),
+            Start::Again(node) => (node.path, node.kind),
+        };
+        let (radiance, rays) = self.follow(cx, &ray, kind, parent, probe);
         out.value = Value::Radiance(radiance);
         out.rays = rays;
-    }
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    ) {
-        out.value = Value::Radiance(self.trace(cx, &node.path, node.kind, parent, probe).0);
     }
 }

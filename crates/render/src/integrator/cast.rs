@@ -5,13 +5,13 @@ use durer_model::{bsdf::Seen, material::GlossRays, texture::Habit};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    Integrator, Output, Transport,
+    Integrator, Output, Start, Transport,
     shading::{LIGHT_BRANCH, Shading},
 };
 use crate::{
     Contribution, MediumStack, PathRay, SampleCx, Value,
     footprint::Onlooker,
-    probe::{Counters, Probe, RayKind, Shaded, StopReason, TreeNode},
+    probe::{Counters, Probe, RayKind, Shaded, StopReason},
 };
 
 /// What a ray cast shows of the nearest hit.
@@ -87,14 +87,18 @@ impl Transport for Cast {
         }
     }
 
-    fn sample<P: Probe>(
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
     ) {
+        let ray = match start {
+            Start::Eye(ray) => ray,
+            Start::Again(node) => node.path,
+        };
         let id = probe.ray(parent, &ray, RayKind::Eye);
         out.rays = 1;
         let counts = (self.show == Show::Cost).then(|| count(cx, &ray));
@@ -120,16 +124,6 @@ impl Transport for Cast {
             probe.local(id, radiance);
             probe.result(id, radiance);
         }
-    }
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    ) {
-        Transport::sample(self, cx, node.path, parent, probe, out);
     }
 }
 

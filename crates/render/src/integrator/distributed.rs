@@ -15,13 +15,10 @@ use durer_model::material::GlossRays;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    EyeSamples, Integrator, Transport,
+    EyeSamples, Integrator, Start, Transport,
     walk::{Lights, Rules, Walk},
 };
-use crate::{
-    Contribution, PathRay, SampleCx,
-    probe::{Probe, TreeNode},
-};
+use crate::{Contribution, SampleCx, probe::Probe};
 
 /// How the rays of several effects are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -153,24 +150,14 @@ impl Transport for Distributed {
         }
     }
 
-    fn sample<P: Probe>(
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
-    }
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    ) {
-        Walk::new(&self.rules, cx, probe).again(node, parent, out);
+        Walk::new(&self.rules, cx, probe).start(start, parent, out);
     }
 }

@@ -1,6 +1,6 @@
 //! Light transport: from a ray to radiance.
 //!
-//! An author writes one generic [`Transport::sample`]; what the driver holds is the object-safe [`Integrator`], which
+//! An author writes one generic [`Transport::trace`]; what the driver holds is the object-safe [`Integrator`], which
 //! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
 
 mod ambient_occlusion;
@@ -46,6 +46,15 @@ pub struct EyeSamples {
     pub lens: u32,
 }
 
+/// What is traced.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// An eye ray.
+    Eye(PathRay),
+    /// A recorded ray, once more.
+    Again(&'a TreeNode),
+}
+
 /// Light transport as its author writes it, once for all probes.
 pub trait Transport: Send + Sync {
     /// What the samples mean.
@@ -64,20 +73,11 @@ pub trait Transport: Send + Sync {
     fn bounded(&self) -> Option<GlossRays> {
         None
     }
-    /// Traces `ray` and all it spawns; leaves what arrives in `out`.
-    fn sample<P: Probe>(
+    /// Traces a ray and all it spawns; leaves what arrives in `out`.
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    );
-    /// Traces a recorded ray, and all it spawns, again.
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
@@ -94,13 +94,13 @@ pub trait Integrator: Send + Sync {
     fn depth_limit(&self) -> Option<u32>;
     /// [`Transport::bounded`].
     fn bounded(&self) -> Option<GlossRays>;
-    /// [`Transport::sample`], unwatched.
+    /// [`Transport::trace`] of an eye ray, unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
-    /// [`Transport::sample`], recorded.
+    /// [`Transport::trace`] of an eye ray, recorded.
     fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>);
-    /// [`Transport::again`], recorded.
+    /// [`Transport::trace`] of a recorded ray, recorded.
     fn replay(&self, cx: &SampleCx<'_>, node: &TreeNode, out: &mut Contribution, recorder: &mut Recorder<'_>);
-    /// [`Transport::sample`], counted.
+    /// [`Transport::trace`] of an eye ray, counted.
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters);
 }
 
@@ -118,10 +118,10 @@ impl<T: Transport> Integrator for T {
         Transport::bounded(self)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
-        Transport::sample(self, cx, ray, (), &mut NoProbe, out);
+        self.trace(cx, Start::Eye(ray), (), &mut NoProbe, out);
     }
     fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
-        Transport::sample(self, cx, ray, Default::default(), recorder, out);
+        self.trace(cx, Start::Eye(ray), Default::default(), recorder, out);
     }
     fn replay(
         &self,
@@ -130,10 +130,10 @@ impl<T: Transport> Integrator for T {
         out: &mut Contribution,
         recorder: &mut Recorder<'_>,
     ) {
-        Transport::again(self, cx, node, Default::default(), recorder, out);
+        self.trace(cx, Start::Again(node), Default::default(), recorder, out);
     }
     fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
-        Transport::sample(self, cx, ray, Default::default(), counters, out);
+        self.trace(cx, Start::Eye(ray), Default::default(), counters, out);
     }
 }
 
@@ -146,6 +146,9 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
 ];
+
+/// Those that follow one direction per hit: scene languages agree with us on what their depth means.
+pub const PATHS: &[&str] = &["path", "direct"];
 
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] =

@@ -9,13 +9,10 @@ use durer_model::material::GlossRays;
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
-    Integrator, Transport,
+    Integrator, Start, Transport,
     walk::{Rules, Walk},
 };
-use crate::{
-    Contribution, PathRay, SampleCx,
-    probe::{Probe, TreeNode},
-};
+use crate::{Contribution, SampleCx, probe::Probe};
 
 /// Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,24 +40,14 @@ impl Transport for Whitted {
     fn depth_limit(&self) -> Option<u32> {
         Some(self.rules.max_depth)
     }
-    fn sample<P: Probe>(
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        Walk::new(&self.rules, cx, probe).sample(&ray, parent, out);
-    }
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    ) {
-        Walk::new(&self.rules, cx, probe).again(node, parent, out);
+        Walk::new(&self.rules, cx, probe).start(start, parent, out);
     }
 }

@@ -45,6 +45,11 @@ pub(crate) struct Crossing {
 }
 
 impl Crossing {
+    /// The surface of no body.
+    pub(crate) fn nothing(before: &MediumStack) -> Self {
+        Self { boundary: Boundary::Own, front: *before, behind: *before }
+    }
+
     /// The bodies that a ray is in which stays on this side of the surface, or goes through it.
     pub(crate) fn media(&self, branch: BranchKind) -> MediumStack {
         match branch {
@@ -79,7 +84,7 @@ impl Scene {
         before: &MediumStack,
         mut complain: impl FnMut(Id<Object>, Imbalance),
     ) -> Crossing {
-        let mut crossing = Crossing { boundary: Boundary::Own, front: *before, behind: *before };
+        let mut crossing = Crossing::nothing(before);
         let Some(medium) = self.medium_of(object) else { return crossing };
         let skin = Skin { object, medium, is_entered: surface.is_outside(wo) };
         if self.media.get(medium).priority.is_none() {

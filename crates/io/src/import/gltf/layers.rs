@@ -18,8 +18,11 @@ impl<'a> Builder<'_, '_, 'a> {
             let texture = ("clearcoatRoughnessTexture", "g");
             self.share(&own, "clearcoatroughness", ("clearcoatRoughnessFactor", 0.0), texture)?;
             if let Some(map) = own.get("clearcoatNormalTexture")? {
-                self.document
-                    .warn(&map, "the clear coat's own normal map is not read; it has the surface's normal");
+                self.direction("clearcoatnormal", &map)?;
+                let scale = map.number_or("scale", 1.0)?;
+                if scale != 1.0 {
+                    self.put(|p| p.float("clearcoatnormalscale", scale as f32));
+                }
             }
         }
         if let Some(own) = material.extension("KHR_materials_sheen")? {
@@ -30,8 +33,7 @@ impl<'a> Builder<'_, '_, 'a> {
         if let Some(own) = material.extension("KHR_materials_anisotropy")? {
             self.share(&own, "anisotropy", ("anisotropyStrength", 0.0), ("anisotropyTexture", "b"))?;
             if let Some(map) = own.get("anisotropyTexture")? {
-                self.document
-                    .warn(&map, "of an anisotropy texture only the strength is read, not the direction");
+                self.direction("anisotropydirection", &map)?;
             }
             let rotation = own.number_or("anisotropyRotation", 0.0)?;
             self.put(|p| p.float("anisotropyrotation", rotation as f32));

@@ -180,6 +180,13 @@ impl<'a> Builder<'_, '_, 'a> {
         });
         Ok(())
     }
+    /// A parameter that holds directions in the colours of a texture.
+    pub(super) fn direction(&mut self, name: &str, info: &Element<'a>) -> Checked<()> {
+        if let Some(texture) = self.textures.texture(info, Role::Normal)? {
+            self.put(|p| p.texture(name, &texture));
+        }
+        Ok(())
+    }
     /// A colour parameter: a texture times `factor`, or `factor` alone.
     pub(super) fn color(&mut self, name: &str, info: Option<Element<'a>>, factor: [f64; 3]) -> Checked<()> {
         let texture = match info {

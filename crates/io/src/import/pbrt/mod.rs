@@ -5,6 +5,7 @@
 //! parameters are checked later, against the registry of the model; only `Film` and `Sampler` are checked here.
 
 mod block;
+mod cutout;
 mod directive;
 mod files;
 mod film;
@@ -35,9 +36,13 @@ use self::{
 use super::Imported;
 use durer_scene::Location;
 
+/// Bounces of pbrt-v4's paths unless a file says how many.
+const USUAL_DEPTH: u32 = 5;
+
 /// Reads the file at `path`.
 pub(super) fn read(path: &Path, imported: &mut Imported) {
     let Imported { desc, assets, sources, diagnostics } = imported;
+    desc.usual_depth = Some(USUAL_DEPTH);
     if let Some((files, text)) = Files::main(path, assets.limits(), sources, diagnostics) {
         Parser::new(text, files, desc, sources, diagnostics).run();
         retired::summarize(path, diagnostics);
@@ -48,6 +53,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
 pub fn read_text(name: &str, text: &str, imported: &mut Imported) {
     let text: Arc<str> = Arc::from(text);
     let Imported { desc, assets, sources, diagnostics } = imported;
+    desc.usual_depth = Some(USUAL_DEPTH);
     if !files::spans_fit(&text) {
         diagnostics.error(Location::None, format!("{name}: larger than 4 GiB"));
         return;

@@ -1,9 +1,10 @@
 //! The directives that name a kind of thing in the world and give it parameters.
 use std::sync::Arc;
 
-use durer_scene::{Data, LightDesc, Node, TextureValue, ValueType};
+use durer_scene::{Data, LightDesc, MaterialRef, Node, Param, TextureValue, ValueType};
 
 use super::{
+    cutout::take_alpha,
     input::{Reported, Word},
     lexer::{Token, TokenKind},
     params::{ParamList, stored, take},
@@ -90,13 +91,17 @@ impl Parser<'_> {
         let (kind, params) = self.kind_and_params(head, "a kind of shape")?;
         let mut params = self.inherit(Target::Shape, params, &kind);
         let name = self.name(&mut params);
-        self.check_alpha(&params);
+        let alpha = take_alpha(&mut params);
         let at = kind.at;
+        let material = match alpha {
+            Some(alpha) => Some(self.masked(alpha)),
+            None => self.state.material,
+        };
         let fits = self.world.shape(PlacedShape {
             name,
             node: Arc::new(Node { kind: kind.text, params: stored(params), at: kind.at.into() }),
             placement: self.state.ctm.clone(),
-            material: self.state.material,
+            material,
             reverse: self.state.reverse,
             area_light: self.state.area_light.clone(),
         });
@@ -108,15 +113,13 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Says once that shapes have no cut-outs yet.
-    fn check_alpha(&mut self, params: &ParamList) {
-        let alpha = params.iter().find(|p| p.name == "alpha" && p.data != Data::Floats(vec![1.0]));
-        if let Some(alpha) = alpha
-            && self.first_time("alpha")
-        {
-            let message = "\"alpha\" of shapes is not supported yet: they are shown whole";
-            self.input.diagnostics.warning(alpha.at.clone(), message);
+    /// The material of a shape of which only the share `alpha` is there.
+    fn masked(&mut self, alpha: Param) -> MaterialRef {
+        if self.state.area_light.is_some() && alpha.data == Data::Floats(vec![0.0]) {
+            let message = "a light of which nothing is there sends nothing; pbrt has it shine unseen";
+            self.warn_once("unseen light", alpha.at.clone(), message);
         }
+        self.world.masked(self.state.material, alpha)
     }
 
     /// `LightSource`

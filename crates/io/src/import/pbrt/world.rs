@@ -76,6 +76,8 @@ pub(super) struct World<'a> {
     /// Seconds of the two matrices of a [`Placement`].
     pub(super) times: (f64, f64),
     materials: HashMap<String, Slot>,
+    /// By the material below and the parameter.
+    pub(super) masks: HashMap<(Option<MaterialRef>, String), MaterialRef>,
     objects: HashMap<String, Slot>,
     textures: [HashSet<String>; 2],
     /// Shapes of each object.
@@ -92,6 +94,7 @@ impl<'a> World<'a> {
             desc,
             times: (0.0, 1.0),
             materials: HashMap::new(),
+            masks: HashMap::new(),
             objects: HashMap::new(),
             textures: Default::default(),
             shapes: Vec::new(),

@@ -81,14 +81,18 @@ impl Looks {
             Glow::Picture(picture) => picture.largest(),
         }
     }
-    /// The radiance where textures are looked up at `at`; black in a hole.
+    /// The radiance where textures are looked up at `at`, by the share of the surface that is there; black in a hole.
     pub(super) fn color(&self, glow: &Glow, basis: Basis, at: &TextureAt) -> Color {
         let cx = ShadeCx { basis, textures: &self.textures, log: None };
-        if let Some((materials, index)) = &self.holes
-            && materials[*index as usize].is_hole(&cx, at)
-        {
-            return Color::BLACK;
+        let there =
+            self.holes.as_ref().map(|(materials, index)| materials[*index as usize].coverage(&cx, at));
+        match there {
+            Some(0.0) => Color::BLACK,
+            Some(share) => self.shown(glow, &cx, at) * share,
+            None => self.shown(glow, &cx, at),
         }
+    }
+    fn shown(&self, glow: &Glow, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
         match glow {
             Glow::Even(color) => *color,
             // Asked for before the scene's textures are known.

@@ -6,6 +6,8 @@
 //! plus or minus `atan(x y / |z| r)`; sums and differences of those come from products of the complex numbers `|z| r + i x y`.
 //! The first number chooses `x` so that the part to the left has its share of the solid angle, the second `y` so that
 //! `y / |p|` is uniform.
+use std::f64::consts::TAU;
+
 use durer_core::glam::DVec3;
 
 /// Below this solid angle the difference of angles has lost too many digits, and area does as well.
@@ -48,8 +50,8 @@ pub(super) struct SphericalRectangle<'r> {
     y: [f64; 2],
     /// Along the normal.
     z: f64,
-    /// The difference of the angles at the two corners of smallest x.
-    left: f64,
+    /// Cosine and sine of the difference of the angles at the two corners of smallest x.
+    left: [f64; 2],
     solid_angle: f64,
 }
 
@@ -62,11 +64,16 @@ impl<'r> SphericalRectangle<'r> {
         let [width, height] = rectangle.lengths;
         let (x, y) = ([x, x + width], [y, y + height]);
         let at = |x: f64, y: f64| (z.abs() * (x * x + y * y + z * z).sqrt(), x * y);
-        // The argument of a b* for the complex numbers of two corners.
-        let turn = |(a, c): (f64, f64), (b, d): (f64, f64)| libm::atan2(c * b - a * d, a * b + c * d);
+        // a b* of two complex numbers: its argument is the difference of theirs.
+        let turn = |(a, c): (f64, f64), (b, d): (f64, f64)| (a * b + c * d, c * b - a * d);
         let right = turn(at(x[1], y[1]), at(x[1], y[0]));
         let left = turn(at(x[0], y[1]), at(x[0], y[0]));
-        let solid_angle = right - left;
+        let (cos, sin) = turn(right, left);
+        let solid_angle = libm::atan2(sin, cos);
+        let passes_pi = solid_angle < 0.0 && right.1 > 0.0 && left.1 < 0.0;
+        let solid_angle = if passes_pi { solid_angle + TAU } else { solid_angle };
+        let length = (left.0 * left.0 + left.1 * left.1).sqrt();
+        let left = [left.0 / length, left.1 / length];
         let this = Self { rectangle, from, x, y, z, left, solid_angle };
         (z != 0.0 && solid_angle > SMALLEST).then_some(this)
     }
@@ -79,7 +86,9 @@ impl<'r> SphericalRectangle<'r> {
         let z2 = self.z * self.z;
         // z of the unit normals of the planes through the eye and the edges of smallest and largest y.
         let b = self.y.map(|y| y / (y * y + z2).sqrt());
-        let (sin, cos) = libm::sincos(u[0] * self.solid_angle + self.left);
+        let (sin, cos) = libm::sincos(u[0] * self.solid_angle);
+        let [c, s] = self.left;
+        let (sin, cos) = (sin * c + cos * s, cos * c - sin * s);
         let f = (b[1] - cos * b[0]) / sin;
         let c2 = 1.0 / (f * f + b[0] * b[0]);
         let x = ((c2 / (1.0 - c2).max(0.0)).sqrt().copysign(f) * self.z.abs()).clamp(self.x[0], self.x[1]);

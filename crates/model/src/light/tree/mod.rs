@@ -21,6 +21,8 @@ pub use self::bounds::{Cone, LightBounds};
 
 /// No node.
 const NONE: u32 = u32::MAX;
+/// Up to so many lights are all looked at: that costs no more than the way down, and is more exact.
+const FEW: usize = 4;
 /// Levels that no tree exceeds.
 const DEEPEST: usize = 64;
 /// The spheres around nodes are larger by this factor, squared, so that rounding never loses what lies at their rim.
@@ -61,6 +63,21 @@ impl Node {
             is_leaf,
             both_sides: known.both_sides,
         };
+    }
+
+    /// Whether [`Node::importance`] is above 0: what shines into a half space in the direction of its axis, and receivers,
+    /// see nothing behind their plane. PERF: without roots, as most scenes have a light or two (bench render).
+    fn may_reach(&self, p: Point3, n: Option<Normal3>) -> bool {
+        if self.cos_o < 1.0 || self.cos_end.abs() > 1e-6 {
+            return self.importance(p, n) > 0.0;
+        }
+        let d = p - self.center;
+        if d.length_squared() <= self.radius2 {
+            return self.intensity > 0.0;
+        }
+        let is_behind = |along: f32| along < 0.0 && along * along > self.radius2;
+        let is_dark = !self.both_sides && is_behind(self.axis.dot(d));
+        self.intensity > 0.0 && !is_dark && !n.is_some_and(|n| is_behind(-n.dot(d)))
     }
 
     /// About the most irradiance that can come from it to `p`, on a surface of normal `n`.
@@ -134,8 +151,11 @@ impl LightTree {
     /// A light for point `p` on a surface of unit normal `n`, chosen by `u` in `[0, 1)`; `None` if nothing can arrive.
     pub fn choose(&self, p: Point3, n: Option<Normal3>, u: f64) -> Option<Picked> {
         let (mut node, mut chance, mut rest) = (&self.nodes[0], 1.0, u);
-        if node.is_leaf && node.importance(p, n) <= 0.0 {
-            return None;
+        if node.is_leaf {
+            return node.may_reach(p, n).then_some(Picked { index: node.link as usize, chance, rest });
+        }
+        if self.leaves.len() <= FEW {
+            return self.choose_of_few(p, n, u);
         }
         while !node.is_leaf {
             let first = self.first_share(node, p, n)?;
@@ -148,14 +168,49 @@ impl LightTree {
         Some(Picked { index: node.link as usize, chance, rest })
     }
 
+    /// What each of few lights may send, and all together.
+    fn of_few(&self, p: Point3, n: Option<Normal3>) -> ([f32; FEW], f64) {
+        let (mut each, mut total) = ([0.0; FEW], 0.0);
+        for (own, &leaf) in each.iter_mut().zip(&self.leaves) {
+            if leaf != NONE {
+                *own = self.nodes[leaf as usize].importance(p, n);
+                total += f64::from(*own);
+            }
+        }
+        (each, total)
+    }
+
+    fn choose_of_few(&self, p: Point3, n: Option<Normal3>, u: f64) -> Option<Picked> {
+        let (each, total) = self.of_few(p, n);
+        let mut left = u * total;
+        let mut picked = None;
+        for (index, own) in each.iter().map(|own| f64::from(*own)).enumerate() {
+            if own > 0.0 {
+                let rest = (left / own).clamp(0.0, 1.0 - f64::EPSILON);
+                picked = Some(Picked { index, chance: own / total, rest });
+                if left < own {
+                    break;
+                }
+            }
+            left -= own;
+        }
+        picked
+    }
+
     /// The chance with which [`LightTree::choose`] gives light `index`.
     pub fn chance(&self, p: Point3, n: Option<Normal3>, index: usize) -> f64 {
+        let root = &self.nodes[0];
+        if root.is_leaf {
+            return if root.link as usize == index && root.may_reach(p, n) { 1.0 } else { 0.0 };
+        }
+        if self.leaves.len() <= FEW {
+            let (each, total) = self.of_few(p, n);
+            let own = each.get(index).map_or(0.0, |own| f64::from(*own));
+            return if own > 0.0 { own / total } else { 0.0 };
+        }
         let mut way = [0u32; DEEPEST];
         let mut steps = 0;
         let Some(mut at) = self.leaves.get(index).copied().filter(|leaf| *leaf != NONE) else { return 0.0 };
-        if at == 0 {
-            return if self.nodes[0].importance(p, n) > 0.0 { 1.0 } else { 0.0 };
-        }
         while at != 0 {
             way[steps] = at;
             steps += 1;
@@ -172,10 +227,10 @@ impl LightTree {
 
     /// About the irradiance that can come from all lights to `p`, on a surface of unit normal `n`.
     pub fn estimate(&self, p: Point3, n: Option<Normal3>) -> f32 {
-        let root = &self.nodes[0];
-        if root.is_leaf {
-            return root.importance(p, n);
+        if self.leaves.len() <= FEW {
+            return (self.of_few(p, n).1 as f32).min(f32::MAX);
         }
+        let root = &self.nodes[0];
         let [a, b] = [0, 1].map(|i| self.nodes[root.link as usize + i].importance(p, n));
         a + b
     }

@@ -2,22 +2,25 @@
 //! shines through it, and what fills its body.
 use durer_core::{
     math::{
-        Vector3,
+        Frame, Normal3, Vector3,
         float::{cos, ln, sin, sqr},
     },
     spectrum::{Color, Spectrum},
 };
 use durer_scene::{Args, ColorInput, FloatInput, ParamDefault, ParamSpec, ParamType};
 
-use super::{super::roughness::tangent, film};
+use super::{
+    super::{normal_map, roughness::tangent},
+    film,
+};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bsdf, Facets, Glossy, Interface, Lobe, Matte, Reflectance, Sheen, Split},
+    bsdf::{Bsdf, Facets, Interface, Lobe, Matte, Reflectance, Sheen, Split, Tilted, Veil},
     texture::TextureAt,
 };
 
-/// Reflectance of the clear coat at normal incidence: an index of 1.5.
-const COAT: f32 = 0.04;
+/// Least cosine between the normals of coat and surface for the coat to count as tilted.
+const LEAST_COSINE: f32 = 0.05;
 
 /// Parameters of the extensions.
 #[derive(Debug)]
@@ -26,9 +29,12 @@ pub(super) struct Layers {
     specular_color: ColorInput,
     coat: FloatInput,
     coat_roughness: FloatInput,
+    coat_normal: Option<ColorInput>,
+    coat_normal_scale: f32,
     sheen: ColorInput,
     sheen_roughness: FloatInput,
     anisotropy: FloatInput,
+    direction: Option<ColorInput>,
     rotation: f32,
     film: FloatInput,
     film_eta: f32,
@@ -52,7 +58,7 @@ impl Layers {
             && self.body.is_none()
             && !self.compensates
     }
-    pub(super) const PARAMS: [ParamSpec; 17] = [
+    pub(super) const PARAMS: [ParamSpec; 20] = [
         ParamSpec::float_texture("specular", 1.0, "Strength of the dielectric part's reflection.")
             .range(0.0, 1.0),
         ParamSpec::color_texture("specularcolor", [1.0; 3], "Its colour at normal incidence.")
@@ -60,12 +66,25 @@ impl Layers {
         ParamSpec::float_texture("clearcoat", 0.0, "Share of the surface below a clear coat.")
             .range(0.0, 1.0),
         ParamSpec::float_texture("clearcoatroughness", 0.0, "Roughness of the coat.").range(0.0, 1.0),
+        ParamSpec::new(
+            "clearcoatnormal",
+            ParamType::ColorTexture,
+            ParamDefault::Unset,
+            "Normal map of the coat, as normal; without it the coat is as smooth as the shape.",
+        ),
+        ParamSpec::float("clearcoatnormalscale", 1.0, "Factor on the slope of the coat's normal map."),
         ParamSpec::color_texture("sheencolor", [0.0; 3], "Colour of fibres on the surface; black: none.")
             .range(0.0, 1.0),
         ParamSpec::float_texture("sheenroughness", 0.0, "How far the fibres lean apart.").range(0.0, 1.0),
         ParamSpec::float_texture("anisotropy", 0.0, "Brushed: the roughness along the brush rises to 1.")
             .range(0.0, 1.0),
-        ParamSpec::float("anisotropyrotation", 0.0, "Direction of the brush, from that of growing u.")
+        ParamSpec::new(
+            "anisotropydirection",
+            ParamType::ColorTexture,
+            ParamDefault::Unset,
+            "Direction of the brush along growing u and v, as 2 c - 1 of red and green; without it along u.",
+        ),
+        ParamSpec::float("anisotropyrotation", 0.0, "Turns the direction of the brush, from u towards v.")
             .unit("rad"),
         ParamSpec::float_texture("iridescence", 0.0, "Share of the surface below a thin film.")
             .range(0.0, 1.0),
@@ -116,9 +135,12 @@ impl Layers {
             specular_color: args.color_input("specularcolor"),
             coat: args.float_input("clearcoat"),
             coat_roughness: args.float_input("clearcoatroughness"),
+            coat_normal: args.is_set("clearcoatnormal").then(|| args.color_input("clearcoatnormal")),
+            coat_normal_scale: args.float("clearcoatnormalscale"),
             sheen: args.color_input("sheencolor"),
             sheen_roughness: args.float_input("sheenroughness"),
             anisotropy: args.float_input("anisotropy"),
+            direction: args.is_set("anisotropydirection").then(|| args.color_input("anisotropydirection")),
             rotation: args.float("anisotropyrotation"),
             film: args.float_input("iridescence"),
             film_eta: args.float("iridescenceeta"),
@@ -163,42 +185,88 @@ impl Layers {
 
     /// The facets of a surface of width `alpha`.
     pub(super) fn facets(&self, cx: &ShadeCx<'_>, surface: &Surface, alpha: f32) -> Facets {
-        let strength = cx.float(self.anisotropy, &surface.texture_at()).clamp(0.0, 1.0);
+        let at = surface.texture_at();
+        let strength = cx.float(self.anisotropy, &at).clamp(0.0, 1.0);
         if strength == 0.0 {
             return Facets::round(alpha);
         }
-        let t = tangent(surface);
+        let [x, y] = self.direction.map_or([1.0, 0.0], |map| {
+            let [r, g, _] = cx.color(map, &at).rgb;
+            [2.0 * r - 1.0, 2.0 * g - 1.0]
+        });
         let (s, c) = (sin(self.rotation), cos(self.rotation));
-        let turned = Vector3::new(c * t.x - s * t.y, c * t.y + s * t.x, 0.0);
-        Facets::along(turned, alpha + (1.0 - alpha) * sqr(strength), alpha)
+        let (x, y) = (c * x - s * y, c * y + s * x);
+        let t = tangent(surface);
+        let t = Vector3::new(t.x, t.y, 0.0).normalize();
+        let across = Vector3::new(-t.y, t.x, 0.0);
+        // Mirrored texture coordinates turn the other direction round.
+        let is_mirrored = surface.frame().to_local(surface.dpdv).dot(across) < 0.0;
+        let along = t * x + across * if is_mirrored { -y } else { y };
+        Facets::along(along, alpha + (1.0 - alpha) * sqr(strength), alpha)
     }
 
-    /// Adds coat and fibres to `bsdf`, of a surface of which the share `coverage` is there; the share of light that is left
-    /// for what lies below them.
+    /// The normal of the coat in the frame of the surface, whose normal without normal map is `smooth`.
+    fn coat_normal(&self, cx: &ShadeCx<'_>, (surface, smooth): (&Surface, Normal3), wo: Vector3) -> Vector3 {
+        let shape = Surface { n_s: smooth, ..*surface };
+        let normal = match self.coat_normal {
+            Some(map) => {
+                normal_map::tilted(&shape, cx.color(map, &surface.texture_at()), self.coat_normal_scale, wo)
+            }
+            None => smooth,
+        };
+        let up = Vector3::new(0.0, 0.0, 1.0);
+        if normal == surface.n_s {
+            return up;
+        }
+        let local = Frame::from_z(surface.n_s).to_local(normal.into());
+        if local.z >= LEAST_COSINE { local } else { up }
+    }
+
+    /// Coat and fibres on a surface; `smooth` is its normal without normal map.
+    pub(super) fn veil(&self, cx: &ShadeCx<'_>, (surface, smooth): (&Surface, Normal3), wo: Vector3) -> Veil {
+        let at = surface.texture_at();
+        let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
+        let coat = unit(self.coat);
+        let sheen = cx.basis.reflectance(self.fibres(cx, &at)).max();
+        Veil {
+            coat,
+            coat_alpha: if coat > 0.0 { sqr(unit(self.coat_roughness)) } else { 0.0 },
+            coat_normal: match coat > 0.0 {
+                true => self.coat_normal(cx, (surface, smooth), wo),
+                false => Veil::NONE.coat_normal,
+            },
+            sheen,
+            sheen_alpha: if sheen > 0.0 { sqr(unit(self.sheen_roughness)) } else { 0.0 },
+        }
+    }
+    fn fibres(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
+        cx.color(self.sheen, at).map(|v| v.clamp(0.0, 1.0))
+    }
+
+    /// Adds coat and fibres to `bsdf`, of a surface of which the share `coverage` is there.
     pub(super) fn on_top(
         &self,
         (cx, at): (&ShadeCx<'_>, &TextureAt),
+        veil: &Veil,
         (wo, coverage): (Vector3, f32),
         bsdf: &mut Bsdf,
-    ) -> f32 {
-        let mut left = 1.0;
-        let coat = cx.float(self.coat, at).clamp(0.0, 1.0);
-        if coat > 0.0 {
-            let alpha = sqr(cx.float(self.coat_roughness, at).clamp(0.0, 1.0));
-            let reflectance = Reflectance::Schlick { f0: Spectrum::splat(COAT), f90: Spectrum::ONE };
-            let facets = Facets::round(alpha);
-            let glossy = Glossy { reflectance, facets, scale: coat * coverage };
-            left -= coat * glossy.directional_albedo(wo).max();
-            bsdf.add(Lobe::Glossy(glossy));
+    ) {
+        if veil.coat > 0.0 {
+            let coat = veil.coat();
+            bsdf.add(
+                match veil.coat_normal == Veil::NONE.coat_normal {
+                    true => Lobe::Glossy(coat),
+                    false => Lobe::Tilted(Tilted { glossy: coat, normal: veil.coat_normal }),
+                }
+                .scaled(coverage),
+            );
         }
-        let color = cx.basis.reflectance(cx.color(self.sheen, at).map(|v| v.clamp(0.0, 1.0)));
-        if !color.is_black() {
-            let alpha = sqr(cx.float(self.sheen_roughness, at).clamp(0.0, 1.0));
-            let sheen = Sheen::new(color * (left * coverage), alpha, wo);
-            left *= 1.0 - color.max() * sheen.hidden;
+        if veil.sheen > 0.0 {
+            let color = cx.basis.reflectance(self.fibres(cx, at));
+            let below_coat = Veil { sheen: 0.0, ..*veil }.left(wo);
+            let sheen = Sheen::new(color * (below_coat * coverage), veil.sheen_alpha, wo);
             bsdf.add(Lobe::Matte(Matte::Sheen(sheen)));
         }
-        left.max(0.0)
     }
 
     /// Share of the body's light that leaves behind it, and its colour.

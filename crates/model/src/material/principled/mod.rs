@@ -2,13 +2,12 @@
 //!
 //! A GGX lobe (alpha = roughness²) whose `f0` runs from `((eta - 1) / (eta + 1))²` (dielectric) to the base colour
 //! (metal); below the dielectric's part of it a diffuse body of the base colour. The appendix dims the body by `1 - F` of
-//! each pair of directions; here it is `1 - E(wo)` with `E` the directional albedo of the dielectric's lobe (albedo
-//! scaling), and so are things below coats and fibres: as `E` is affine in `f0`, the whole never reflects more than arrives.
-//! It is not reciprocal, by a factor that is the same for all lights and lanes but depends on the view. Neither is the film,
-//! whose colour is that of the viewer's angle.
+//! each pair of directions; here it is by `1 - E` along both, `E` the directional albedo of the dielectric's lobe and of what
+//! lies on top (`bsdf/under.rs`): reciprocal, and the whole never reflects more than arrives. Facets below a coat or fibres are
+//! dimmed by `1 - E(wo)` alone, which depends on the view; so does the colour of a film.
 //!
-//! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight
-//! (KHR_materials_transmission); with a `thickness` by a real body that refracts (KHR_materials_volume), rough if the surface
+//! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight, or spread if it is
+//! rough (KHR_materials_transmission); with a `thickness` by a real body that refracts (KHR_materials_volume), rough if the surface
 //! is. Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0 there is a hole. `unlit`
 //! (KHR_materials_unlit) leaves nothing but the base colour, which the surface then emits.
 mod film;
@@ -23,7 +22,7 @@ use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, P
 use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Blur, Blurred, Bounced, Bsdf, Glossy, Lobe, Matte, SMOOTH, normal_reflectance},
+    bsdf::{Blur, Blurred, Bounced, Bsdf, Glossy, Lobe, Matte, SMOOTH, Sheet, Under, normal_reflectance},
     texture::TextureAt,
 };
 
@@ -176,11 +175,12 @@ impl Principled {
         let turned = Surface { dpdu: dpdu * a + dpdv * c, dpdv: dpdu * b + dpdv * d, ..*surface };
         normal_map::tilted(&turned, cx.color(map, &surface.texture_at()), self.normal_scale, wo)
     }
+    /// Looked up as for holes: in a point, as an average would count the holes in it twice.
     fn alpha(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        cx.float(self.alpha, at) * at.vertex_color[3]
+        cx.float(self.alpha, &at.as_point()) * at.vertex_color[3]
     }
     /// Share of the surface that is there.
-    fn coverage(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+    fn share_there(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         match self.mode {
             AlphaMode::Blend => self.alpha(cx, at).clamp(0.0, 1.0),
             AlphaMode::Opaque | AlphaMode::Mask(_) => 1.0,
@@ -194,38 +194,48 @@ impl Principled {
 }
 
 impl Principled {
-    /// The lobes of a surface whose normal is settled.
-    fn lit(&self, cx: &ShadeCx<'_>, surface: &Surface, wo: Vector3) -> Bsdf {
+    /// The lobes of a surface whose normal is settled; `smooth` is the one without normal map.
+    fn lit(&self, cx: &ShadeCx<'_>, (surface, smooth): (&Surface, Normal3), wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
         let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
-        let (base, coverage) = (self.base(cx, &at), self.coverage(cx, &at));
+        let (base, coverage) = (self.base(cx, &at), self.share_there(cx, &at));
         let (metallic, transmission) = (unit(self.metallic), unit(self.transmission));
         let facets = self.layers.facets(cx, surface, sqr(unit(self.roughness)));
 
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
-        let mut on_top = Bsdf::default();
-        let below_top = self.layers.on_top((cx, &at), (local_wo, coverage), &mut on_top);
+        let veil = self.layers.veil(cx, (surface, smooth), wo);
+        let below_top = veil.left(local_wo);
         // What enters a real body does so through an interface of its own, beside the opaque rest.
         let entering = if self.layers.body.is_some() { transmission * (1.0 - metallic) } else { 0.0 };
-        let (sheet, there) = match self.layers.body {
-            Some(_) => (0.0, coverage * (1.0 - entering) * below_top),
-            None => (transmission, coverage * below_top),
-        };
+        let sheet = if self.layers.body.is_some() { 0.0 } else { transmission };
+        let there = coverage * (1.0 - entering);
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
         let (of_dielectric, reflectance) =
             self.layers.reflectance((cx, &at), (dielectric_f0, base, metallic), local_wo.z.abs().min(1.0));
-        let dielectric = Glossy { reflectance: of_dielectric, facets, scale: there };
-        let below = dielectric.directional_albedo(local_wo).map(|e| (1.0 - e).max(0.0));
-        let body = base * below * ((1.0 - metallic) * there);
-        let passing = body * sheet + Spectrum::splat(1.0 - coverage);
+        let dielectric = Glossy { reflectance: of_dielectric, facets, scale: there * below_top };
+        let body = |color: Spectrum, share: f32| {
+            Under::new(color * ((1.0 - metallic) * there * share), &dielectric, veil, local_wo)
+        };
         let (shine, shine_color) = self.layers.shine(cx, &at);
-        let mut bsdf = Bsdf::default()
-            .with(Lobe::Diffuse { albedo: body * ((1.0 - sheet) * (1.0 - shine)) })
-            .with(Lobe::Glossy(Glossy { reflectance, ..dielectric }))
-            .with(Lobe::PassThrough { weight: passing });
-        if shine > 0.0 {
-            let dimmed = below * ((1.0 - metallic) * there * (1.0 - sheet) * shine);
-            bsdf.add(Lobe::Behind { albedo: shine_color * dimmed });
+        let mut bsdf = Bsdf::default();
+        if metallic < 1.0 {
+            bsdf.add(Lobe::Matte(Matte::Under(body(base, (1.0 - sheet) * (1.0 - shine)))));
+        }
+        bsdf.add(Lobe::Glossy(Glossy { reflectance, ..dielectric }));
+        if shine > 0.0 && sheet < 1.0 {
+            let behind = body(shine_color, (1.0 - sheet) * shine).seen_through();
+            bsdf.add(Lobe::Matte(Matte::Under(behind)));
+        }
+        let mut passing = Spectrum::splat(1.0 - coverage);
+        if sheet > 0.0 {
+            let share = (1.0 - metallic) * sheet;
+            match facets.is_smooth() {
+                true => passing += body(base, sheet).albedo(),
+                false => bsdf.add(Lobe::Sheet(Sheet::below(&dielectric, base)).scaled(share)),
+            }
+        }
+        if !passing.is_black() {
+            bsdf.add(Lobe::PassThrough { weight: passing });
         }
         if entering > 0.0 {
             let interface = Layers::boundary(self.eta, base, entering * coverage * below_top);
@@ -237,26 +247,27 @@ impl Principled {
         if self.layers.compensates
             && let Some(lost) = Bounced::of(&reflectance, &facets)
         {
-            bsdf.add(Lobe::Matte(Matte::Bounced(lost)).scaled(there));
+            bsdf.add(Lobe::Matte(Matte::Bounced(lost)).scaled(there * below_top));
         }
-        on_top.lobes().fold(bsdf, |bsdf, lobe| bsdf.with(*lobe))
+        self.layers.on_top((cx, &at), &veil, (local_wo, coverage), &mut bsdf);
+        bsdf
     }
 }
 
 impl Material for Principled {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
-        let at = surface.texture_at();
+        let (at, smooth) = (surface.texture_at(), surface.n_s);
         if let Some(map) = self.normal {
             surface.n_s = self.tilted(cx, map, surface, wo);
         }
         if self.unlit {
-            let passing = Spectrum::splat(1.0 - self.coverage(cx, &at));
+            let passing = Spectrum::splat(1.0 - self.share_there(cx, &at));
             return Bsdf::default().with(Lobe::PassThrough { weight: passing });
         }
-        self.lit(cx, surface, wo)
+        self.lit(cx, (surface, smooth), wo)
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
-        let coverage = self.coverage(cx, at);
+        let coverage = self.share_there(cx, at);
         if self.unlit {
             let [r, g, b, _] = at.vertex_color;
             return cx.basis.emission(cx.color(self.base, at) * Color::new(r, g, b)) * coverage;
@@ -292,6 +303,9 @@ impl Material for Principled {
     }
     fn has_holes(&self) -> bool {
         self.mode != AlphaMode::Opaque
+    }
+    fn coverage(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        if self.is_hole(cx, at) { 0.0 } else { self.share_there(cx, at) }
     }
     fn is_hole(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> bool {
         match self.mode {

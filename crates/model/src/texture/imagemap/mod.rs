@@ -20,7 +20,7 @@ use durer_scene::{Args, Image, ImageData, Kind, ParamDefault, ParamSpec, ParamTy
 
 use super::{
     Filters, Texture, TextureAt,
-    mapping::{MAPPING, Mapping, U_DELTA, U_SCALE, UV_MATRIX, UV_SET, V_DELTA, V_SCALE, V1, V2},
+    mapping::{Mapping, UV_MATRIX, mapped},
 };
 use crate::ShadeCx;
 use encoding::Encoding;
@@ -221,7 +221,7 @@ impl Kind for ColorImageMap {
         name: "imagemap",
         aliases: &[],
         doc: "An image; v grows upwards, (0, 0) is its lower left corner.",
-        params: &[
+        params: &mapped::<10, 18>([
             FILENAME,
             WRAP,
             WRAP_V,
@@ -231,16 +231,8 @@ impl Kind for ColorImageMap {
             SCALE,
             ParamSpec::color("factor", [1.0; 3], "Linear factor of the colours, after inversion."),
             INVERT,
-            UV_SET,
-            U_SCALE,
-            V_SCALE,
-            U_DELTA,
-            V_DELTA,
             UV_MATRIX,
-            MAPPING,
-            V1,
-            V2,
-        ],
+        ]),
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         ImageMap::read(args, TextureValue::Color).map(|map| Box::new(map) as Box<dyn Texture>)
@@ -257,7 +249,7 @@ impl Kind for FloatImageMap {
         name: "imagemap",
         aliases: &[],
         doc: "A channel of an image; v grows upwards, (0, 0) is its lower left corner.",
-        params: &[
+        params: &mapped::<10, 18>([
             FILENAME,
             WRAP,
             WRAP_V,
@@ -273,16 +265,8 @@ impl Kind for FloatImageMap {
                  images that are not opaque, mean of the others.",
             ),
             INVERT,
-            UV_SET,
-            U_SCALE,
-            V_SCALE,
-            U_DELTA,
-            V_DELTA,
             UV_MATRIX,
-            MAPPING,
-            V1,
-            V2,
-        ],
+        ]),
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         ImageMap::read(args, TextureValue::Float).map(|map| Box::new(map) as Box<dyn Texture>)

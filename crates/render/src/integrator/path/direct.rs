@@ -49,19 +49,19 @@ impl<P: Probe> Follow<'_, P> {
         }
         let scene = self.walk.cx.scene;
         let choosing = ray.sampler.fork(LIGHT_BRANCH);
-        let u = choosing.d1(Dim::LightChoice);
+        let u = || choosing.d1(Dim::LightChoice);
         let Some(chosen) = scene.choose_light(self.course.light_sampler, lit, u) else { return radiance };
         let cx = LightCx { basis: self.walk.cx.basis, time: s.time };
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else { return radiance };
         let asked = self.asked(s, chosen, sample);
         if asked.weight.is_black() {
             if P::ACTIVE {
-                self.report_dark(ray, (s, crossing), &asked, u, id);
+                self.report_dark(ray, (s, crossing), &asked, u(), id);
             }
             return radiance;
         }
         if P::RECORDS {
-            self.report_light(&choosing, &asked, u);
+            self.report_light(&choosing, &asked, u());
         }
         let light = self.walk.shadow(ray, (s, crossing), chosen.light, asked.weight, &sample, id);
         radiance + asked.weight * light

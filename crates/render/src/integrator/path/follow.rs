@@ -36,10 +36,10 @@ struct Link<Id> {
     weight: Spectrum,
 }
 
-/// What a hit leaves to do: its own radiance, and the ray that follows.
-pub(super) struct Step {
+/// What a hit leaves to do: its own radiance, and which ray follows, in the place of the one that hit.
+struct Step {
     radiance: Spectrum,
-    next: Option<(PathRay, RayKind)>,
+    next: Option<RayKind>,
 }
 
 impl Step {
@@ -88,17 +88,18 @@ impl<'a, P: Probe> Follow<'a, P> {
     /// Radiance arriving along a ray.
     fn trace(&mut self, ray: &PathRay, kind: RayKind, mut parent: P::Id) -> Spectrum {
         let mut links: [Option<Link<P::Id>>; CHAIN] = std::array::from_fn(|_| None);
-        let mut next = Some((*ray, kind));
+        // PERF: one ray that becomes the next, instead of copies (bench render).
+        let (mut ray, mut next) = (*ray, Some(kind));
         let mut radiance = Spectrum::BLACK;
         for link in &mut links {
-            let Some((ray, kind)) = next.take() else { break };
+            let Some(kind) = next else { break };
             let id = self.walk.probe.ray(parent, &ray, kind);
-            let step = self.step(&ray, id);
-            let weight = step.next.as_ref().map_or(Spectrum::BLACK, |(ray, _)| ray.weight);
+            let step = self.step(&mut ray, id);
+            let weight = step.next.map_or(Spectrum::BLACK, |_| ray.weight);
             *link = Some(Link { id, radiance: step.radiance, weight });
             (parent, next) = (id, step.next);
         }
-        if let Some((ray, kind)) = next {
+        if let Some(kind) = next {
             radiance = self.trace(&ray, kind, parent);
         }
         for link in links.iter().rev().flatten() {
@@ -108,7 +109,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         radiance
     }
 
-    fn step(&mut self, ray: &PathRay, id: P::Id) -> Step {
+    fn step(&mut self, ray: &mut PathRay, id: P::Id) -> Step {
         let walk = &mut self.walk;
         if let Some(reason) = walk.reason_to_stop(ray) {
             if P::RECORDS {
@@ -124,7 +125,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         }
     }
 
-    fn shade(&mut self, ray: &PathRay, hit: &Hit, id: P::Id) -> Step {
+    fn shade(&mut self, ray: &mut PathRay, hit: &Hit, id: P::Id) -> Step {
         let walk = &mut self.walk;
         let mut s = Shading::at(walk.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
         walk.probe.surface(id, s.object, hit, &s.surface);
@@ -136,8 +137,8 @@ impl<'a, P: Probe> Follow<'a, P> {
                     walk.report_passed(ray, &crossing, arriving, id);
                 }
                 let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
-                let child = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
-                return Step { radiance: Spectrum::BLACK, next: Some((child, RayKind::Passing)) };
+                *ray = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
+                return Step { radiance: Spectrum::BLACK, next: Some(RayKind::Passing) };
             }
             Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
             Boundary::Own => {}
@@ -167,16 +168,18 @@ impl<'a, P: Probe> Follow<'a, P> {
         Lit { p: s.surface.p, n, time: s.time }
     }
 
-    /// The ray that follows a hit, if chance lets it.
+    /// Puts the ray that follows a hit in the place of the one that hit, if chance lets it.
     fn scatter(
         &mut self,
-        parent: &PathRay,
+        parent: &mut PathRay,
         (s, crossing): (&Shading, &Crossing),
         lit: &Lit,
         id: P::Id,
-    ) -> Option<(PathRay, RayKind)> {
+    ) -> Option<RayKind> {
         let sampler = parent.sampler.fork(SCATTER_BRANCH);
-        let scattered = s.bsdf.scatter(s.wo_local, sampler.d1(Dim::Lobe), sampler.d2(Dim::Scatter));
+        // PERF: a number that decides nothing is not asked for (bench render).
+        let choice = if s.bsdf.has_choice() { sampler.d1(Dim::Lobe) } else { 0.0 };
+        let scattered = s.bsdf.scatter(s.wo_local, choice, sampler.d2(Dim::Scatter));
         let Some(scattered) = scattered else {
             let reason = match P::ACTIVE && s.bsdf.is_black() {
                 true => StopReason::Absorbed,
@@ -204,16 +207,17 @@ impl<'a, P: Probe> Follow<'a, P> {
         }
         child.weight = child.weight / kept;
         child.throughput = parent.throughput * child.weight;
-        Some((child, kind))
+        *parent = child;
+        Some(kind)
     }
 
     /// The ray straight on behind a surface of which nothing else is followed.
     fn pass_only(
         &mut self,
-        parent: &PathRay,
+        parent: &mut PathRay,
         (s, crossing): (&Shading, &Crossing),
         id: P::Id,
-    ) -> Option<(PathRay, RayKind)> {
+    ) -> Option<RayKind> {
         let weight = s.bsdf.passed(s.wo_local);
         if weight.is_black() {
             self.walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
@@ -222,7 +226,8 @@ impl<'a, P: Probe> Follow<'a, P> {
         if P::RECORDS {
             self.walk.probe.chosen(&Choice::sharp());
         }
-        Some((straight_on(parent, (s, crossing), weight), RayKind::sharp(BranchKind::Transmission)))
+        *parent = straight_on(parent, (s, crossing), weight);
+        Some(RayKind::sharp(BranchKind::Transmission))
     }
 
     /// The ray in a scattered direction.

@@ -9,11 +9,8 @@ mod report;
 
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Integrator, Transport, walk::Rules};
-use crate::{
-    Contribution, LightSampler, PathRay, SampleCx,
-    probe::{Probe, TreeNode},
-};
+use super::{Integrator, Start, Transport, walk::Rules};
+use crate::{Contribution, LightSampler, SampleCx, probe::Probe};
 use follow::Follow;
 
 /// What a path integrator asks of the recursion.
@@ -34,8 +31,8 @@ impl Course {
     const MAX_DEPTH: ParamSpec = ParamSpec::new(
         "maxdepth",
         ParamType::Int,
-        ParamDefault::Int(5),
-        "Bounces at most; 1 is direct light.",
+        ParamDefault::Int(8),
+        "Bounces at most; 1 is direct light. 5 where a pbrt file is silent, as in pbrt-v4.",
     )
     .range(0.0, 10_000.0);
     const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
@@ -76,7 +73,7 @@ impl Kind for Path {
             ParamSpec::new(
                 "roulettedepth",
                 ParamType::Int,
-                ParamDefault::Int(1),
+                ParamDefault::Int(3),
                 "Bounces after which chance may end a path.",
             )
             .range(0.0, 10_000.0),
@@ -109,24 +106,18 @@ impl Transport for Path {
     fn depth_limit(&self) -> Option<u32> {
         Some(self.course.rules.max_depth)
     }
-    fn sample<P: Probe>(
+    fn trace<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        start: Start<'_>,
         parent: P::Id,
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        Follow::new(&self.course, cx, probe).sample(&ray, parent, out);
-    }
-    fn again<P: Probe>(
-        &self,
-        cx: &SampleCx<'_>,
-        node: &TreeNode,
-        parent: P::Id,
-        probe: &mut P,
-        out: &mut Contribution,
-    ) {
-        Follow::new(&self.course, cx, probe).again(node, parent, out);
+        let follow = Follow::new(&self.course, cx, probe);
+        match start {
+            Start::Eye(ray) => follow.sample(&ray, parent, out),
+            Start::Again(node) => follow.again(node, parent, out),
+        }
     }
 }

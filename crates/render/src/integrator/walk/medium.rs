@@ -14,6 +14,9 @@ use crate::{
 impl<P: Probe> Walk<'_, P> {
     /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
     pub(in super::super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
+        if self.cx.scene.media.is_empty() {
+            return Crossing::nothing(before);
+        }
         let imbalances = &mut self.imbalances;
         let complain = |object, imbalance| match imbalance {
             Imbalance::LeftUnentered => imbalances.add(object),
@@ -31,6 +34,9 @@ impl<P: Probe> Walk<'_, P> {
         ray: &Ray,
         t: f32,
     ) -> Spectrum {
+        if bodies.is_empty() {
+            return Spectrum::ONE;
+        }
         let media = &self.cx.scene.media;
         let present = bodies.present(media).medium.map(|id| media.get(id));
         match present.filter(|medium| medium.absorbs()) {

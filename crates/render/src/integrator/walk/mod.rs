@@ -19,12 +19,12 @@ use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
 use durer_model::texture::Habit;
 
-use super::shading::Shading;
+use super::{Start, shading::Shading};
 use crate::{
     Contribution, Imbalances, PathRay, SampleCx, Value,
     footprint::Onlooker,
     media::Boundary,
-    probe::{Probe, RayKind, StopReason, TreeNode},
+    probe::{Probe, RayKind, StopReason},
 };
 
 pub(super) use report::Parts;
@@ -49,21 +49,23 @@ impl<'a, P: Probe> Walk<'a, P> {
         Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default() }
     }
 
-    /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in.
-    pub(super) fn sample(mut self, ray: &PathRay, parent: P::Id, out: &mut Contribution) {
-        let ray = PathRay { media: self.cx.scene.start, ..*ray };
-        out.value = Value::Radiance(self.trace(&ray, RayKind::Eye, parent));
-        out.rays = self.rays;
-        out.imbalances = self.imbalances;
-    }
-
-    /// Follows a recorded ray once more.
-    pub(super) fn again(mut self, node: &TreeNode, parent: P::Id, out: &mut Contribution) {
-        let radiance = match &node.light {
-            Some(event) => self.send_shadow(&node.path, event.light, (event.point, event.unoccluded), parent),
-            None => self.trace(&node.path, node.kind, parent),
+    /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in, or follows a recorded ray.
+    pub(super) fn start(mut self, start: Start<'_>, parent: P::Id, out: &mut Contribution) {
+        let radiance = match start {
+            Start::Eye(ray) => {
+                let ray = PathRay { media: self.cx.scene.start, ..ray };
+                self.trace(&ray, RayKind::Eye, parent)
+            }
+            Start::Again(node) => match &node.light {
+                Some(event) => {
+                    self.send_shadow(&node.path, event.light, (event.point, event.unoccluded), parent)
+                }
+                None => self.trace(&node.path, node.kind, parent),
+            },
         };
         out.value = Value::Radiance(radiance);
+        out.rays = self.rays;
+        out.imbalances = self.imbalances;
     }
 
     /// Radiance arriving along a ray.
