@@ -8,9 +8,9 @@ use durer::{
 };
 
 /// Pixels per row.
-const WIDTH: u32 = 48;
+const WIDTH: u32 = 32;
 /// Rows.
-const HEIGHT: u32 = 32;
+const HEIGHT: u32 = 24;
 
 /// A scene under the integrator `path`.
 pub(crate) struct Subject {

@@ -29,11 +29,13 @@ Tasks of the durer project.
       Builds the HTML page from page/ (npm ci, vite build) and puts it into crates/page/dist/, where the next build of
       durer finds it. Needs Node 18.19 or newer and npm. A published crate holds the built page.
 
-  cargo xtask bench render [--json] [--runs N] [--quality]
-      Renders benches/povray_spheres.pbrt at 1280 x 960 with 2 threads N times (default 5), in turns with POV-Ray on
-      the twin scene if `povray` is installed, without antialiasing and adaptively (povray +A0.3); prints each run,
-      medians and ratios, with --json as JSON. --quality adds how far the antialiased pictures are from converged ones
-      of the same program.
+  cargo xtask bench render [--json] [--scene a,b] [--renderer a,b] [--runs N] [--spp N] [--quick] [--quality]
+      Renders cornell, atrium, sphere8, classroom, coffee and veach-ajar with durer, Mitsuba and Cycles in turns, N times
+      (default 3), and prints samples per processor second, noise, processor seconds to equal error, memory, and whether
+      the pictures agree (docs/benchmarks.md). Installs the others from PyPI into target/bench/; skips what cannot be
+      had. Then renders povray_spheres at 1280 x 960 in turns with POV-Ray, if `povray` is installed, without
+      antialiasing and adaptively (povray +A0.3); --quality adds how far those are from converged pictures of the
+      same program. --renderer takes beginnings of names: durer,mitsuba-llvm. --quick: a quarter of the samples, twice.
 
   cargo xtask bench kernel [--json] [--quick] [--runs N] [--scenes a,b] [--isa avx512,avx2,portable]
       Traces the same rays with our kernel, Embree 4 and obvhs in turns and prints how much faster ours is, with --json as
@@ -84,7 +86,7 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
         ["bench", "samplers", options @ ..] => {
             bench::samplers::run(bench::samplers::Options::parse(options)?)
         }
-        ["bench", "render", options @ ..] => bench::run(&bench::Options::parse(options)?),
+        ["bench", "render", options @ ..] => bench::render::run(&bench::render::Options::parse(options)?),
         [] | ["help" | "--help" | "-h"] => {
             println!("{HELP}");
             Ok(())

@@ -32,7 +32,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("durer-testkit", &[]),
     ("durer-tests", &["durer"]),
     ("durer-benches", &["durer"]),
-    ("xtask", &[]),
+    ("xtask", &["durer-io", "durer-scene"]),
 ];
 
 /// What tests may depend on beyond that.

@@ -75,7 +75,7 @@ fn compile(folder: &Path) -> Result<PathBuf, String> {
 }
 
 /// Runs a command; if it fails, what it complained of last.
-fn succeed(mut command: Command, name: &str) -> Result<(), String> {
+pub(super) fn succeed(mut command: Command, name: &str) -> Result<(), String> {
     let output = command.stdin(Stdio::null()).output().map_err(|error| format!("{name}: {error}"))?;
     if output.status.success() {
         return Ok(());

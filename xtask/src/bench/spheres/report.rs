@@ -1,21 +1,17 @@
 //! The figures as a table or as JSON.
 use serde_json::{Value, json};
 
-use super::{Comparison, HEIGHT, Mode, Run, THREADS, WIDTH};
+use super::{Comparison, HEIGHT, Mode, Run, Spheres, THREADS, WIDTH};
 
-/// Prints them on stdout; `rmse` holds none, ours, or ours and theirs.
-pub(super) fn print(comparisons: &[Comparison], rmse: &[f64], as_json: bool) -> anyhow::Result<()> {
-    if as_json {
-        println!("{}", serde_json::to_string_pretty(&as_values(comparisons, rmse))?);
-        return Ok(());
-    }
+/// Prints the tables on stdout.
+pub(in super::super) fn print(spheres: &Spheres) {
+    let Spheres { comparisons, rmse } = spheres;
     for Comparison { mode, ours, theirs } in comparisons {
         println!("{}", as_table(title(*mode), ours, theirs));
     }
     for (name, rmse) in ["durer", "povray"].iter().zip(rmse) {
         println!("{name}, antialiased: RMSE {rmse:.5} to its own converged picture");
     }
-    Ok(())
 }
 
 fn title(mode: Mode) -> &'static str {
@@ -26,7 +22,9 @@ fn title(mode: Mode) -> &'static str {
     }
 }
 
-fn as_values(comparisons: &[Comparison], rmse: &[f64]) -> Value {
+/// As JSON.
+pub(in super::super) fn as_values(spheres: &Spheres) -> Value {
+    let Spheres { comparisons, rmse } = spheres;
     let mut all = json!({
         "version": 1, "scene": "povray_spheres", "width": WIDTH, "height": HEIGHT, "spp": 1, "threads": THREADS,
         "rmse": { "durer": rmse.first(), "povray": rmse.get(1) },
@@ -130,7 +128,8 @@ mod tests {
     #[test]
     fn the_plain_comparison_is_where_it_was() {
         let of = |mode| Comparison { mode, ours: vec![RUN], theirs: Vec::new() };
-        let value = as_values(&[of(Mode::Plain), of(Mode::Antialiased)], &[0.25]);
+        let value =
+            as_values(&Spheres { comparisons: [of(Mode::Plain), of(Mode::Antialiased)], rmse: vec![0.25] });
         assert_eq!(value["durer"]["median"]["rays"], 100);
         assert_eq!(value["antialiased"]["durer"]["median"]["rays"], 100);
         assert_eq!((&value["rmse"]["durer"], &value["rmse"]["povray"]), (&json!(0.25), &Value::Null));
