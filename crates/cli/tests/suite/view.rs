@@ -100,7 +100,9 @@ fn a_click_has_the_numbers_that_trace_prints() {
     let options = "whitted --width 40 --height 30 --spp 4 --max-depth 6 --seed 3";
     let server = Server::start(&place, options);
     let mut socket = server.socket();
-    socket.send(Message::text(json!({ "type": "trace", "id": 1, "x": 18, "y": 14, "sample": 2 }).to_string())).expect("sent");
+    socket
+        .send(Message::text(json!({ "type": "trace", "id": 1, "x": 18, "y": 14, "sample": 2 }).to_string()))
+        .expect("sent");
     let answer = text(&mut socket, "trace");
     let printed = place.done(&format!("trace {options} --pixel 18,14 --sample 2 --json")).stdout;
     let printed: Value = serde_json::from_str(&printed).expect("JSON");
@@ -118,7 +120,11 @@ fn ctrl_c_stops_it_at_once_whatever_it_does() {
     let mut socket = server.socket();
     text(&mut socket, "hello");
     // A question that takes a while, and a picture that never ends.
-    socket.send(Message::text(json!({ "type": "trace", "id": 1, "x": 640, "y": 360, "samples": true }).to_string())).expect("sent");
+    socket
+        .send(Message::text(
+            json!({ "type": "trace", "id": 1, "x": 640, "y": 360, "samples": true }).to_string(),
+        ))
+        .expect("sent");
     let (code, said) = server.interrupt();
     assert_eq!(code, Some(130), "{said}");
     assert!(said.contains("Ctrl-C stops"), "{said}");

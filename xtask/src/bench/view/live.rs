@@ -93,12 +93,7 @@ impl Page {
 }
 
 /// Figures of one scene under one integrator.
-pub(super) fn measure(
-    durer: &PathBuf,
-    name: &str,
-    scene: &Path,
-    integrator: &str,
-) -> anyhow::Result<Value> {
+pub(super) fn measure(durer: &PathBuf, name: &str, scene: &Path, integrator: &str) -> anyhow::Result<Value> {
     eprintln!("==> durer view, {name}, {integrator}");
     let start = Instant::now();
     let mut command = Command::new(durer);
@@ -130,7 +125,8 @@ pub(super) fn measure(
 /// The next move comes when a picture of the last one is there, as from a browser that draws at once.
 fn orbit(page: &mut Page) -> anyhow::Result<Value> {
     let camera = page.hello["camera"].clone();
-    let vector = |name: &str| -> anyhow::Result<[f64; 3]> { Ok(serde_json::from_value(camera[name].clone())?) };
+    let vector =
+        |name: &str| -> anyhow::Result<[f64; 3]> { Ok(serde_json::from_value(camera[name].clone())?) };
     let (eye, forward, up, right) = (vector("eye")?, vector("forward")?, vector("up")?, vector("right")?);
     let distance = camera["distance"].as_f64().context("a distance")?;
     let mut waits = Vec::new();
