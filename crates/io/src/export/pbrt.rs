@@ -126,14 +126,6 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// Directives that place what comes next.
-    fn place(&mut self, frame: Result<Frame, String>, owner: &str) {
-        match frame {
-            Ok(frame) => frame.write(&mut self.text),
-            Err(why) => self.refuse(format!("{owner}: {why}")),
-        }
-    }
-
     fn options(&mut self, film: Film, camera: usize) {
         let Film { width, height, samples, sampler } = film;
         if let Some((start, end)) = self.times.seconds() {
@@ -173,8 +165,7 @@ impl Writer<'_> {
 
     fn camera(&mut self, camera: &CameraDesc) {
         let owner = format!("camera \"{}\"", camera.name);
-        let frame = self.times.frame(&camera.world_from_camera, |m| m.inverse());
-        self.place(frame, &owner);
+        self.times.frame(&camera.world_from_camera, |m| m.inverse()).write(&mut self.text);
         self.node("Camera", &camera.node, (&camera.name, &owner));
         self.line("Identity");
     }
@@ -211,8 +202,7 @@ impl Writer<'_> {
         for light in &desc.lights {
             let owner = format!("light \"{}\"", light.name);
             self.line("\nAttributeBegin");
-            let frame = self.times.frame(&light.world_from_light, |m| *m);
-            self.place(frame, &owner);
+            self.times.frame(&light.world_from_light, |m| *m).write(&mut self.text);
             self.node("LightSource", &light.node, (&light.name, &owner));
             self.line("AttributeEnd");
         }
@@ -229,8 +219,7 @@ impl Writer<'_> {
         let (alone, instances) = desc.shapes.split_at(first);
         for shape in alone {
             self.line("\nAttributeBegin");
-            let frame = self.times.frame(&shape.world_from_object, |m| *m);
-            self.place(frame, &owner(shape));
+            self.times.frame(&shape.world_from_object, |m| *m).write(&mut self.text);
             self.shape(shape);
             self.line("AttributeEnd");
         }
@@ -249,8 +238,7 @@ impl Writer<'_> {
                 }
             };
             self.line("\nAttributeBegin");
-            let frame = self.times.frame(&shape.world_from_object, |m| *m);
-            self.place(frame, &owner(shape));
+            self.times.frame(&shape.world_from_object, |m| *m).write(&mut self.text);
             self.line(&format!("ObjectInstance \"object {object}\"\nAttributeEnd"));
         }
     }

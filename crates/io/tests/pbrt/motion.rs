@@ -55,6 +55,17 @@ fn keys_translate_rotate_and_scale() {
 }
 
 #[test]
+fn keys_may_be_matrices() {
+    let m = motion(
+        "TransformKeys \"float times\" [0 2] \"float matrices\" [1 0 0  0 1 0  0 0 1  1 0 0   0 2 0  -2 0 0  0 0 2  3 4 0]",
+    );
+    is(m.at(2.0), [[0., 2., 0.], [-2., 0., 0.], [0., 0., 2.], [3., 4., 0.]]);
+    // A quarter turn and twice as large: half of each.
+    let r = 1.5 * 0.5f64.sqrt();
+    is(m.at(1.0), [[r, r, 0.], [-r, r, 0.], [0., 0., 1.5], [2., 2., 0.]]);
+}
+
+#[test]
 fn turns_are_whole_and_what_orbits_stays_on_its_circle() {
     for turns in [1.0, 2.0, -7.5] {
         let degrees = turns * 360.0;
@@ -138,6 +149,13 @@ fn keys_are_checked() {
     assert!(says(&format!("{two} \"vector3 scale\" [1 1 1 1 0 1]")).contains("singular"));
     assert!(says(&format!("{two} \"float rotate\" [0 0 0 1 1e9 0 0 1]")).contains("turns too far"));
     assert!(says(&format!("{two} \"float rotat\" [1]")).contains("did you mean \"rotate\"?"));
+    let one = "1 0 0  0 1 0  0 0 1  0 0 0";
+    assert!(says(&format!("{two} \"float matrices\" [{one}]")).contains("twelve numbers for each of the 2"));
+    assert!(says(&format!("{two} \"float matrices\" [{one} 1 0 0 0 1 0 0 0 0 0 0 0]")).contains("singular"));
+    let both = format!("{two} \"float matrices\" [{one} {one}] \"vector3 scale\" [1 1 1 2 2 2]");
+    assert!(says(&both).contains("leave \"scale\" out"));
+    let twice = format!("\"float times\" [2 2] \"float matrices\" [{one} {one}]");
+    assert!(says(&twice).contains("key times must rise"));
     let nested = format!("{two} ").repeat(1) + &format!("TransformKeys {two} ").repeat(4);
     assert!(says(&nested).contains("more than 4 deep"));
     let found = complaints(&read(&format!("WorldBegin ActiveTransform EndTime TransformKeys {two}")));

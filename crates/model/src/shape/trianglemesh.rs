@@ -73,6 +73,24 @@ impl Kind for TriangleMesh {
             ParamSpec::new("N", ParamType::Normals, ParamDefault::Unset, "Shading normal of each vertex."),
             ParamSpec::new("S", ParamType::Vector3s, ParamDefault::Unset, "Shading tangent of each vertex."),
             ParamSpec::new("uv", ParamType::Point2s, ParamDefault::Unset, "Texture coordinates of each vertex."),
+            ParamSpec::new(
+                "uv2",
+                ParamType::Point2s,
+                ParamDefault::Unset,
+                "A second set of them, for textures that ask for it.",
+            ),
+            ParamSpec::new(
+                "handedness",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "1 or -1 for each vertex with S: the bitangent is that times N x S; default: 1.",
+            ),
+            ParamSpec::new(
+                "colors",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "Linear red, green, blue and alpha of each vertex, by which materials multiply their colour.",
+            ),
             KEYS[0],
             KEYS[1],
             KEYS[2],
@@ -124,10 +142,11 @@ impl Kind for TriangleMesh {
         }
         let normals = args.triples("N").into_iter().map(Normal3::from).collect();
         let uvs = args.pairs("uv").into_iter().map(Point2::from).collect();
-        let tangents = args.triples("S").into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        let second_uvs = args.pairs("uv2").into_iter().map(Point2::from).collect();
+        let (tangents, colors) = (tangents(args), colors(args));
         let (time, later) = keys(args);
-        let mesh =
-            Mesh { positions, indices: triangles, normals, uvs, tangents, time, later, ..Mesh::default() };
+        let indices = triangles;
+        let mesh = Mesh { positions, indices, normals, uvs, second_uvs, tangents, colors, time, later };
         if args.is_sound()
             && let Err(error) = mesh.validate()
         {
@@ -136,6 +155,8 @@ impl Kind for TriangleMesh {
                 MeshError::Index { .. } => "indices",
                 MeshError::Length { attribute: "normals", .. } => "N",
                 MeshError::Length { attribute: "tangents", .. } => "S",
+                MeshError::Length { attribute: "colors", .. } => "colors",
+                MeshError::Length { attribute: "second texture coordinates", .. } => "uv2",
                 MeshError::Length { attribute: "normals of a vertex key", .. } => {
                     let wrong =
                         |k: &VertexKey| !k.normals.is_empty() && k.normals.len() != mesh.normals.len();
@@ -160,6 +181,27 @@ impl Kind for TriangleMesh {
 
 fn points(args: &Args<'_>, name: &str) -> Vec<Point3> {
     args.triples(name).into_iter().map(Point3::from).collect()
+}
+
+/// `S` with its handedness; complains if there is not one for each.
+fn tangents(args: &mut Args<'_>) -> Vec<[f32; 4]> {
+    let (along, sides) = (args.triples("S"), args.floats("handedness").to_vec());
+    if !sides.is_empty() && (sides.len() != along.len() || sides.iter().any(|w| w.abs() != 1.0)) {
+        let message = format!("\"handedness\" must be 1 or -1 for each of the {} vectors of S", along.len());
+        args.error("handedness", message);
+    }
+    let side = |i: usize| sides.get(i).copied().unwrap_or(1.0);
+    along.into_iter().enumerate().map(|(i, [x, y, z])| [x, y, z, side(i)]).collect()
+}
+
+/// Four numbers each; complains if that does not come out even.
+fn colors(args: &mut Args<'_>) -> Vec<[f32; 4]> {
+    let (colors, rest) = args.floats("colors").as_chunks::<4>();
+    let (colors, is_whole) = (colors.to_vec(), rest.is_empty());
+    if !is_whole {
+        args.error("colors", "\"colors\" needs four numbers for each vertex: red, green, blue and alpha");
+    }
+    colors
 }
 
 /// The moment of `P` and the keys after it; complains about gaps between them and moments that do not fit.

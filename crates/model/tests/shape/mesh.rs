@@ -142,6 +142,11 @@ fn vertices_move_between_keys() {
     assert!(moments(&[1.0, 1.0]).contains("not later"));
     let (ty, data) = points(&[[0.0; 3]; 2]);
     assert!(wrong(keyed(&[("P", 0.0)]).with("P1", ty, data)).contains("vertex key has 2 entries for 3"));
+    let floats = |list: &[f32]| (ValueType::Float, Data::Floats(list.to_vec()));
+    let still = |name: &str, (ty, data)| wrong(keyed(&[("P", 0.0)]).with(name, ty, data));
+    assert!(still("colors", floats(&[1.0; 11])).contains("four numbers for each vertex"));
+    assert!(still("colors", floats(&[1.0; 8])).contains("colors has 2 entries for 3"));
+    assert!(still("handedness", floats(&[1.0])).contains("1 or -1 for each of the 0 vectors"));
 }
 
 #[test]

@@ -3,14 +3,8 @@ use durer_scene::{Data, Mesh, Node, Params, ValueType};
 
 /// The shape; an error says what of the mesh the language has no words for.
 pub(super) fn node(mesh: &Mesh) -> Result<Node, String> {
-    let more = [
-        (!mesh.later.is_empty(), "its triangles move by keys"),
-        (!mesh.tangents.is_empty(), "it has tangents of its own"),
-        (!mesh.colors.is_empty(), "its corners have colours"),
-        (!mesh.second_uvs.is_empty(), "it has a second set of texture coordinates"),
-    ];
-    if let Some((_, why)) = more.iter().find(|(has, _)| *has) {
-        return Err((*why).to_owned());
+    if !mesh.later.is_empty() {
+        return Err("its triangles move by keys".to_owned());
     }
     let indices = mesh.indices.iter().flatten().map(|&i| i32::try_from(i));
     let indices =
@@ -29,6 +23,23 @@ pub(super) fn node(mesh: &Mesh) -> Result<Node, String> {
     if !mesh.uvs.is_empty() {
         let uvs = mesh.uvs.iter().flat_map(|uv| [uv.x, uv.y]).collect();
         params = params.with("uv", ValueType::Point2, floats(uvs));
+    }
+    if !mesh.second_uvs.is_empty() {
+        let uvs = mesh.second_uvs.iter().flat_map(|uv| [uv.x, uv.y]).collect();
+        params = params.with("uv2", ValueType::Point2, floats(uvs));
+    }
+    if !mesh.tangents.is_empty() {
+        let along = mesh.tangents.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect();
+        let sides = mesh.tangents.iter().map(|[.., w]| *w).collect();
+        params = params.with("S", ValueType::Vector3, floats(along)).with(
+            "handedness",
+            ValueType::Float,
+            floats(sides),
+        );
+    }
+    if !mesh.colors.is_empty() {
+        params =
+            params.with("colors", ValueType::Float, floats(mesh.colors.iter().flatten().copied().collect()));
     }
     Ok(Node::new("trianglemesh", params))
 }

@@ -1,15 +1,17 @@
-//! Placements: one matrix, or one for each end of the time in which things move.
+//! Placements: one matrix, one for each end of the time in which things move, or keys of their own.
 use std::fmt::Write;
 
 use durer_core::{glam::DAffine3, math::Motion};
 use durer_scene::SceneDesc;
 
 /// Where something is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Frame {
     Still(DAffine3),
     /// At the two times of the file.
     Moving(DAffine3, DAffine3),
+    /// At other times: our addition to the language, in single precision.
+    Keyed(Vec<(f64, DAffine3)>),
 }
 
 /// The two times that the language has: those of the first thing that moves.
@@ -34,17 +36,11 @@ impl Times {
     }
 
     /// The matrices of a motion, each changed by `map`.
-    ///
-    /// # Errors
-    /// If it has other keys than the two.
-    pub(super) fn frame(self, motion: &Motion, map: fn(&DAffine3) -> DAffine3) -> Result<Frame, String> {
+    pub(super) fn frame(self, motion: &Motion, map: fn(&DAffine3) -> DAffine3) -> Frame {
         match motion.keys() {
-            _ if motion.is_still() => Ok(Frame::Still(map(&motion.at(0.0)))),
-            [(start, a), (end, b)] if Some((*start, *end)) == self.0 => Ok(Frame::Moving(map(a), map(b))),
-            [_, _] => Err("it moves at another time than others do".to_owned()),
-            keys => {
-                Err(format!("it moves through {} places: the language has two for each thing", keys.len()))
-            }
+            _ if motion.is_still() => Frame::Still(map(&motion.at(0.0))),
+            [(start, a), (end, b)] if Some((*start, *end)) == self.0 => Frame::Moving(map(a), map(b)),
+            keys => Frame::Keyed(keys.iter().map(|(time, m)| (*time, map(m))).collect()),
         }
     }
 }
@@ -60,6 +56,20 @@ impl Frame {
                 text.push_str("ActiveTransform EndTime\n");
                 matrix(end, text);
                 text.push_str("ActiveTransform All\n");
+            }
+            Self::Keyed(keys) => {
+                text.push_str("Identity\nTransformKeys \"float times\" [");
+                for (time, _) in keys {
+                    let _ = write!(text, " {}", *time as f32);
+                }
+                text.push_str(" ]\n    \"float matrices\" [");
+                for (_, m) in keys {
+                    text.push_str("\n       ");
+                    for v in m.to_cols_array() {
+                        let _ = write!(text, " {}", v as f32);
+                    }
+                }
+                text.push_str(" ]\n");
             }
         }
     }

@@ -2,9 +2,10 @@
 //!
 //! At each of its times it is translation times rotation times scale. Between keys the three change evenly: rotation by
 //! its angle if both keys have the same axis, however many turns that is, else on the shortest arc (Shoemake 1985). What is
-//! placed within it moves on the arcs that follow: there is a key every few degrees.
+//! placed within it moves on the arcs that follow: there is a key every few degrees. Or its matrices are given, with no more
+//! between them than that takes.
 use durer_core::{
-    glam::{DAffine3, DQuat, DVec3},
+    glam::{DAffine3, DMat3, DQuat, DVec3},
     math::Motion,
 };
 use durer_scene::{Args, Diagnostics, Node, ParamDefault, ParamSpec, ParamType, Schema};
@@ -42,6 +43,12 @@ pub(super) const KEYS: Schema = Schema {
             "Degrees and axis at each, as of Rotate.",
         ),
         ParamSpec::new("scale", ParamType::Vector3s, ParamDefault::Unset, "Factors along the axes at each."),
+        ParamSpec::new(
+            "matrices",
+            ParamType::Floats,
+            ParamDefault::Unset,
+            "Instead of these three: twelve numbers at each, where the axes x, y and z and the origin go.",
+        ),
     ],
 };
 
@@ -62,6 +69,9 @@ pub(super) fn read(node: &Node, diagnostics: &mut Diagnostics) -> Option<Motion>
         return None;
     }
     let times = args.floats("times");
+    if args.is_set("matrices") {
+        return placed(&mut args, times);
+    }
     let rotate = args.floats("rotate").as_chunks::<4>();
     let (translate, scale) = (args.triples("translate"), args.triples("scale"));
     if times.is_empty() || times.windows(2).any(|w| w.first() >= w.last()) {
@@ -118,6 +128,33 @@ pub(super) fn read(node: &Node, diagnostics: &mut Diagnostics) -> Option<Motion>
         return None;
     }
     Motion::keyed(placed).map_err(|why| args.error("times", why)).ok()
+}
+
+/// The motion through matrices.
+fn placed(args: &mut Args<'_>, times: &[f32]) -> Option<Motion> {
+    let (matrices, rest) = args.floats("matrices").as_chunks::<12>();
+    if matrices.len() != times.len() || !rest.is_empty() {
+        args.error(
+            "matrices",
+            format!("\"matrices\" needs twelve numbers for each of the {} times", times.len()),
+        );
+        return None;
+    }
+    if let Some(other) = ["translate", "rotate", "scale"].into_iter().find(|name| args.is_set(name)) {
+        args.error(other, format!("\"matrices\" says all: leave \"{other}\" out"));
+        return None;
+    }
+    let vector = |m: &[f32; 12], i: usize| DVec3::new(m[i].into(), m[i + 1].into(), m[i + 2].into());
+    let matrix = |m: &[f32; 12]| DAffine3 {
+        matrix3: DMat3::from_cols(vector(m, 0), vector(m, 3), vector(m, 6)),
+        translation: vector(m, 9),
+    };
+    let keys: Vec<_> = times.iter().map(|t| f64::from(*t)).zip(matrices.iter().map(matrix)).collect();
+    if keys.iter().any(|(_, m)| !is_invertible(m)) {
+        args.error("matrices", "a matrix is singular: it has no inverse, so shapes would be flat");
+        return None;
+    }
+    Motion::keyed(keys).map_err(|why| args.error("times", why)).ok()
 }
 
 /// The keys with as many more between them as the rotation needs; `None` if these are too many.
