@@ -1,9 +1,14 @@
 //! The commands of the README and of the gallery work: each `sh` block is run, small, in an empty folder.
 //!
 //! `cargo run --release -- X` becomes `durer X` of the build under test. Pictures are made small unless the command says
-//! how large. Files that stand for a user's own are written beside it: `room.glb`, `room.pbrt`, `statue.ply.gz` and
-//! `sky.hdr`. Commands that would take too long or run this test again are listed in `NOT_RUN`.
-use std::{fs, io::Write, process::Command};
+//! how large; servers are ended once they told their address. Files that stand for a user's own are written beside it:
+//! `room.glb`, `room.pbrt`, `statue.ply.gz` and `sky.hdr`. Commands that would take too long or run this test again are
+//! listed in `NOT_RUN`.
+use std::{
+    fs,
+    io::{BufRead, BufReader, Write},
+    process::{Command, Stdio},
+};
 
 use durer_tests::program::{program, root};
 use serde_json::json;
@@ -145,6 +150,15 @@ fn promised(words: &[String], stdout: &str) -> Vec<String> {
     files
 }
 
+/// Starts a server, which tells its address first, and ends it.
+fn serves(command: &mut Command) {
+    let mut server = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("durer runs");
+    let mut address = String::new();
+    BufReader::new(server.stdout.take().expect("a pipe")).read_line(&mut address).expect("text");
+    server.kill().and_then(|()| server.wait()).expect("an end");
+    assert!(address.starts_with("http://127.0.0.1:") && address.contains("token="), "{command:?}: {address}");
+}
+
 #[test]
 fn every_command_does_what_it_says() {
     let pages =
@@ -166,8 +180,13 @@ fn every_command_does_what_it_says() {
             continue;
         }
         let words = small(command).unwrap_or_else(|| panic!("`{command}` is not known to this test"));
-        let output =
-            Command::new(&program).args(&words).current_dir(folder.path()).output().expect("durer runs");
+        let mut started = Command::new(&program);
+        started.args(&words).current_dir(folder.path());
+        if words.iter().any(|word| word == "view") {
+            serves(&mut started);
+            continue;
+        }
+        let output = started.output().expect("durer runs");
         let (stdout, stderr) =
             (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         if !output.status.success() && stderr.contains("cargo xtask page") {
