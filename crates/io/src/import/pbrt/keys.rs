@@ -5,7 +5,7 @@
 //! placed within it moves on the arcs that follow: there is a key every few degrees. Or its matrices are given, with no more
 //! between them than that takes.
 use durer_core::{
-    glam::{DAffine3, DMat3, DQuat, DVec3},
+    glam::{DAffine3, DQuat, DVec3},
     math::Motion,
 };
 use durer_scene::{Args, Diagnostics, Node, ParamDefault, ParamSpec, ParamType, Schema};
@@ -144,11 +144,7 @@ fn placed(args: &mut Args<'_>, times: &[f32]) -> Option<Motion> {
         args.error(other, format!("\"matrices\" says all: leave \"{other}\" out"));
         return None;
     }
-    let vector = |m: &[f32; 12], i: usize| DVec3::new(m[i].into(), m[i + 1].into(), m[i + 2].into());
-    let matrix = |m: &[f32; 12]| DAffine3 {
-        matrix3: DMat3::from_cols(vector(m, 0), vector(m, 3), vector(m, 6)),
-        translation: vector(m, 9),
-    };
+    let matrix = |m: &[f32; 12]| DAffine3::from_cols_array(&m.map(f64::from));
     let keys: Vec<_> = times.iter().map(|t| f64::from(*t)).zip(matrices.iter().map(matrix)).collect();
     if keys.iter().any(|(_, m)| !is_invertible(m)) {
         args.error("matrices", "a matrix is singular: it has no inverse, so shapes would be flat");
