@@ -2,7 +2,6 @@
 use std::{path::PathBuf, time::Instant};
 
 use anyhow::anyhow;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{
     Gather, Id, MediumStack, Output, Prepared, Rendered,
     film::{Tile, ToneMap},
@@ -21,7 +20,7 @@ use crate::{
     progress::Bar,
     report,
     stats::{Facts, Seconds, Stats, StatsForm},
-    value::{finite, whole},
+    value::{finite, tonemap, whole},
 };
 
 const EXAMPLES: &str = "\
@@ -73,10 +72,6 @@ pub(crate) struct Args {
     threads: Option<u32>,
     #[command(flatten)]
     talk: TalkOptions,
-}
-
-fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
-    PossibleValuesParser::new(ToneMap::WORDS).try_map(|word| ToneMap::from_word(&word).ok_or("unknown"))
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {

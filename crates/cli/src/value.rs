@@ -1,7 +1,11 @@
 //! Values of options: what is allowed is what is said of anything else.
 use std::{ops::RangeInclusive, str::FromStr};
 
-use durer::{film::Tile, math::Interval};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use durer::{
+    film::{Tile, ToneMap},
+    math::Interval,
+};
 
 /// Reads whole numbers of a range.
 pub(crate) fn whole<T>(
@@ -14,6 +18,11 @@ where
         let inside = text.trim().parse().ok().filter(|n| range.contains(n));
         inside.ok_or_else(|| format!("expected a whole number from {} to {}", range.start(), range.end()))
     }
+}
+
+/// How light becomes colours, by its word.
+pub(crate) fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
+    PossibleValuesParser::new(ToneMap::WORDS).try_map(|word| ToneMap::from_word(&word).ok_or("unknown"))
 }
 
 /// Numbers with commas between.

@@ -8,7 +8,6 @@ use std::{
 };
 
 use anyhow::anyhow;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use durer::{drive::Antialias, film::ToneMap};
 use durer_view::{Config, Live, Look, PageSource, StartError};
 
@@ -18,7 +17,7 @@ use crate::{
     load,
     options::{SampleOptions, TalkOptions},
     report,
-    value::{finite, whole},
+    value::{finite, tonemap, whole},
 };
 
 const EXAMPLES: &str = "\
@@ -73,10 +72,6 @@ pub(crate) struct Args {
     threads: Option<u32>,
     #[command(flatten)]
     talk: TalkOptions,
-}
-
-fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
-    PossibleValuesParser::new(ToneMap::WORDS).try_map(|word| ToneMap::from_word(&word).ok_or("unknown"))
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {

@@ -153,6 +153,66 @@ fn lights_are_chosen_as_often_as_their_chance_says() {
     }
 }
 
+/// One to four lights are looked at without a tree.
+#[test]
+fn few_lights_are_chosen_as_their_chances_say_and_never_left_out() {
+    const N: u32 = 1 << 10;
+    let lights = lights(60);
+    let mut arriving = 0;
+    for count in 1..=4 {
+        for few in lights.windows(count) {
+            let tree = tree_of(few);
+            for (p, n) in places(8) {
+                let chances: Vec<f64> = (0..count).map(|i| tree.chance(p, n, i)).collect();
+                let sum: f64 = chances.iter().sum();
+                assert!(sum == 0.0 || (sum - 1.0).abs() < 1e-12, "{chances:?}");
+                let mut counts = vec![0.0; count];
+                for i in 0..N {
+                    let Some(picked) = tree.choose(p, n, f64::from(i) / f64::from(N)) else { continue };
+                    counts[picked.index] += 1.0 / f64::from(N);
+                    assert!((0.0..1.0).contains(&picked.rest));
+                    assert!(
+                        (picked.chance / chances[picked.index] - 1.0).abs() < 1e-12,
+                        "{picked:?} {chances:?}"
+                    );
+                }
+                for (light, (count, chance)) in few.iter().zip(counts.iter().zip(&chances)) {
+                    assert!((count - chance).abs() <= 1.0001 / f64::from(N), "{count} {chance}");
+                    for k in 0..8 {
+                        let Some(s) =
+                            light.sample(&CX, p, &Sampler::new(SamplerKind::Sobol, 3, [0, 0], k, 8))
+                        else {
+                            continue;
+                        };
+                        if n.is_none_or(|n| n.dot(s.wi) > 1e-5) {
+                            arriving += 1;
+                            assert!(*chance > 0.0, "{light:?} sends {s:?} to {p:?} {n:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(arriving > 10_000, "{arriving}");
+}
+
+#[test]
+fn what_shines_to_both_sides_is_chosen_on_both() {
+    let known = |both_sides| LightBounds {
+        bounds: durer_core::math::Bounds3::around([Point3::new(5.0, -0.1, 0.0), Point3::new(5.0, 0.1, 0.0)]),
+        normals: Cone::direction(Vector3::new(1.0, 0.0, 0.0)),
+        end: std::f32::consts::FRAC_PI_2,
+        both_sides,
+        intensity: 1.0,
+    };
+    for (both_sides, behind) in [(false, 0.0), (true, 1.0)] {
+        let tree = LightTree::new([known(both_sides)].into_iter()).expect("it shines");
+        assert_eq!(tree.chance(Point3::new(9.0, 0.0, 0.0), None, 0), 1.0);
+        assert_eq!(tree.chance(Point3::ZERO, None, 0), behind);
+        assert_eq!(tree.choose(Point3::ZERO, None, 0.5).is_some(), both_sides);
+    }
+}
+
 #[test]
 fn what_is_dark_turned_away_or_behind_is_never_chosen() {
     let flat = |at: f32, axis: Vector3, intensity: f32| LightBounds {

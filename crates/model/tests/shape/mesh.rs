@@ -143,6 +143,22 @@ fn vertices_move_between_keys() {
     let (ty, data) = points(&[[0.0; 3]; 2]);
     assert!(wrong(keyed(&[("P", 0.0)]).with("P1", ty, data)).contains("vertex key has 2 entries for 3"));
     let floats = |list: &[f32]| (ValueType::Float, Data::Floats(list.to_vec()));
+    let corners = [
+        ("S", ValueType::Vector3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0][..]),
+        ("handedness", ValueType::Float, &[1.0, -1.0, 1.0]),
+        ("uv2", ValueType::Point2, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+        ("colors", ValueType::Float, &[0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6, 1.0, 0.7, 0.8, 0.9, 0.5]),
+    ];
+    let corners = corners.into_iter().fold(keyed(&[("P", 0.0)]), |params, (name, ty, list)| {
+        params.with(name, ty, Data::Floats(list.to_vec()))
+    });
+    let mesh = mesh_of(corners);
+    assert_eq!(mesh.tangents, [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, -1.0], [0.0, 0.0, 1.0, 1.0]]);
+    assert_eq!(
+        mesh.second_uvs.iter().map(|uv| uv.to_array()).collect::<Vec<_>>(),
+        [[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]
+    );
+    assert_eq!(mesh.colors, [[0.1, 0.2, 0.3, 1.0], [0.4, 0.5, 0.6, 1.0], [0.7, 0.8, 0.9, 0.5]]);
     let still = |name: &str, (ty, data)| wrong(keyed(&[("P", 0.0)]).with(name, ty, data));
     assert!(still("colors", floats(&[1.0; 11])).contains("four numbers for each vertex"));
     assert!(still("colors", floats(&[1.0; 8])).contains("colors has 2 entries for 3"));

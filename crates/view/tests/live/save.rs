@@ -126,8 +126,14 @@ fn keys_and_what_corners_have_come_back() {
                    TransformKeys \"float times\" [0 1 2] \"point3 translate\" [0 0 0  1 0 0  0 1 0]\n\
                    Shape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n";
     let leaf = include_str!("scenes/leaf.gltf");
-    for (name, scene, word) in
-        [("turning.pbrt", turning, "\"float matrices\""), ("leaf.gltf", leaf, "\"float handedness\"")]
+    let of_leaf = [
+        "\"float handedness\" [ -1 -1 -1 ]",
+        "\"vector3 S\" [ 1 0 0 1 0 0 1 0 0 ]",
+        "\"point2 uv2\" [ 0 1 1 1 0.5 0 ]",
+        "\"float colors\" [ 1 0.2 0.1 1 0.1 1 0.2 1 0.2 0.1 1 1 ]",
+    ];
+    for (name, scene, words) in
+        [("turning.pbrt", turning, &["\"float matrices\""][..]), ("leaf.gltf", leaf, &of_leaf)]
     {
         let file = folder.path().join(name);
         std::fs::write(&file, scene).expect("written");
@@ -135,7 +141,9 @@ fn keys_and_what_corners_have_come_back() {
         let mut page = Client::new(&live);
         let shown = page.finished();
         let (text, read) = again(&live, &page, folder.path());
-        assert!(text.contains(word), "{text}");
+        for word in words {
+            assert!(text.contains(word), "{word}: {text}");
+        }
         assert!(shown.rgb8.iter().any(|v| *v != shown.rgb8[0]), "{name}: an empty picture");
         let differing = differing(&shown.rgb8, &read);
         assert!(differing <= 3, "{name}: {differing} pixels\n{text}");

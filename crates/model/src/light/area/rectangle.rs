@@ -100,3 +100,37 @@ impl<'r> SphericalRectangle<'r> {
         self.from + ex * x + ey * y + ez * self.z
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The part of a rectangle of sides `a` and `b` that lies above one of its corners, at distance `d`: `atan(a b / d r)`.
+    fn above_a_corner(a: f64, b: f64, d: f64) -> f64 {
+        (a * b).atan2(d * (a * a + b * b + d * d).sqrt())
+    }
+
+    #[test]
+    fn solid_angles_are_those_of_the_closed_form_up_to_a_half_space() {
+        let sides = [DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
+        let rectangle = Rectangle::new(DVec3::ZERO, sides).expect("a right angle");
+        for (x, y) in [(1.0, 1.5), (0.2, 2.9), (0.0, 0.0), (1.0, 0.0)] {
+            for d in [30.0, 3.0, 0.5, 0.1, 1e-3, 1e-6] {
+                let parts = [(x, y), (2.0 - x, y), (x, 3.0 - y), (2.0 - x, 3.0 - y)];
+                let expected: f64 = parts.iter().map(|(a, b)| above_a_corner(*a, *b, d)).sum();
+                for z in [d, -d] {
+                    let from = DVec3::new(x, y, z);
+                    let seen = SphericalRectangle::of(&rectangle, from).expect("large enough");
+                    let solid_angle = 1.0 / seen.density();
+                    assert!((solid_angle / expected - 1.0).abs() < 1e-9, "{from}: {solid_angle} {expected}");
+                    // Halves of the first number have halves of the angle on their sides.
+                    let p = seen.point([0.5, 0.5]);
+                    let left =
+                        Rectangle::new(DVec3::ZERO, [DVec3::new(p.x, 0.0, 0.0), sides[1]]).expect("a part");
+                    let part = SphericalRectangle::of(&left, from).map_or(0.0, |seen| 1.0 / seen.density());
+                    assert!((part / expected - 0.5).abs() < 1e-4, "{from}: {part} of {expected}");
+                }
+            }
+        }
+    }
+}
