@@ -129,7 +129,8 @@ fn keys_and_what_corners_have_come_back() {
     let of_leaf = [
         "\"float handedness\" [ -1 -1 -1 ]",
         "\"vector3 S\" [ 1 0 0 1 0 0 1 0 0 ]",
-        "\"point2 uv2\" [ 0 1 1 1 0.5 0 ]",
+        // glTF counts v downwards, the language upwards.
+        "\"point2 uv2\" [ 0 0 1 0 0.5 1 ]",
         "\"float colors\" [ 1 0.2 0.1 1 0.1 1 0.2 1 0.2 0.1 1 1 ]",
     ];
     for (name, scene, words) in
