@@ -31,7 +31,7 @@ pub(crate) struct Loaded {
 
 pub(crate) fn load(scene: &str, wishes: &Options) -> Loaded {
     let start = Instant::now();
-    let mut imported = import(scene);
+    let mut imported = import(scene, wishes);
     let load = start.elapsed();
     let failure = failure(&imported, wishes);
     let start = Instant::now();
@@ -39,9 +39,9 @@ pub(crate) fn load(scene: &str, wishes: &Options) -> Loaded {
     Loaded { imported, prepared, failure, load, build: start.elapsed() }
 }
 
-/// Reads a scene; complains about one that is not there with what may have been meant.
-pub(crate) fn import(scene: &str) -> Imported {
-    absent(scene).unwrap_or_else(|| durer::open(scene))
+/// Reads a scene as it is wanted; complains about one that is not there with what may have been meant.
+pub(crate) fn import(scene: &str, wishes: &Options) -> Imported {
+    absent(scene).unwrap_or_else(|| durer::open_for(scene, wishes))
 }
 
 /// What to tell the shell if a scene that was read cannot be prepared.

@@ -20,6 +20,7 @@ pub mod explain;
 mod options;
 pub mod picture;
 mod prepare;
+mod sequence;
 mod studio;
 mod transport;
 pub mod tree;
@@ -44,6 +45,7 @@ pub use durer_scene as scene;
 
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
+pub use sequence::Sequence;
 pub use studio::{Studio, Wanted};
 pub use transport::with_usual_depth;
 
@@ -51,9 +53,15 @@ use std::path::Path;
 
 use durer_scene::{Limits, Location};
 
-/// Reads a scene: a file, or a built-in scene by name. A file of that name in the current folder is not mistaken for
+/// Reads a scene: a file, or a built-in scene by name, at rest. A file of that name in the current folder is not mistaken for
 /// the built-in scene, as files have a suffix.
 pub fn open(scene: &str) -> Imported {
+    open_for(scene, &Options::default())
+}
+
+/// Reads a scene as `options` want it: at their moment of their animation, in their materials. Elsewhere [`prepare`] shows
+/// what options ask for; of a file that holds an animation this must be known when it is read.
+pub fn open_for(scene: &str, options: &Options) -> Imported {
     let path = Path::new(scene);
     if let Some(builtin) = builtin::find(scene) {
         builtin.import()
@@ -63,6 +71,6 @@ pub fn open(scene: &str) -> Imported {
         imported.diagnostics.unknown(Location::None, "file or built-in scene", scene, names);
         imported
     } else {
-        import::open(path, Limits::default())
+        import::open(path, options.reading())
     }
 }

@@ -18,6 +18,7 @@ mod span;
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
+    AnimationDesc,
     CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource,
     TextureDesc, TextureValue,
 };
