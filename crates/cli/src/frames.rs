@@ -8,7 +8,7 @@ use std::{
     time::Instant,
 };
 
-use durer::{Prepared, Sequence, film::Developed};
+use durer::{Prepared, Sequence, film::Developed, scene::SceneDesc};
 
 use crate::{
     exit::{Exit, WrongUsage, emit, emit_json, tell},
@@ -166,7 +166,8 @@ pub(crate) fn run(args: &Args, frames: Frames) -> anyhow::Result<Exit> {
         let left = (plan.frames.len() - number) as u64;
         shoot.bar.expect(prepared.job().steps().saturating_mul(left));
         let seconds = Seconds { load, build: begin.elapsed(), ..Seconds::default() };
-        if !shoot.take((frame, number == 0), &prepared, (seconds, cancel))? {
+        let desc = &sequence.imported.desc;
+        if !shoot.take((frame, number == 0), (desc, &prepared), (seconds, cancel))? {
             break;
         }
         done += 1;
@@ -201,7 +202,7 @@ impl Shoot<'_> {
     fn take(
         &mut self,
         (frame, is_first): (u32, bool),
-        prepared: &Prepared,
+        (desc, prepared): (&SceneDesc, &Prepared),
         (seconds, cancel): (Seconds, &AtomicBool),
     ) -> anyhow::Result<bool> {
         let start = Instant::now();
@@ -211,14 +212,14 @@ impl Shoot<'_> {
         }
         let seconds = Seconds { render: start.elapsed(), ..seconds };
         let files = self.plan.files(frame);
-        let taken = Taken { prepared, rendered: &rendered, seconds };
+        let taken = Taken { desc, prepared, rendered: &rendered, seconds };
         let Shoot { args, bar, .. } = &*self;
         let written = bar.pause(|| -> anyhow::Result<usize> {
             let sample = sample_at(args, frame);
             args.warn_about_bad_samples(&sample, &rendered);
             if is_first {
                 args.warn_about_imbalances(prepared, &rendered);
-                args.warn_about_brightness(&taken.picture(&sample.scene.scene), &files);
+                args.explain_darkness(desc, &taken.picture(&sample.scene.scene), &files);
             }
             said(args, &taken, &files)
         })?;

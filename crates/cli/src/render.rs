@@ -3,14 +3,14 @@ use std::{path::PathBuf, sync::atomic::AtomicBool, time::Instant};
 
 use anyhow::anyhow;
 use durer::{
-    Gather, Id, MediumStack, Output, Prepared, Rendered,
+    Gather, Id, MediumStack, Output, Prepared, Rendered, doctor,
     film::{Tile, ToneMap},
     image::{PictureFormat, replace_file},
     picture::{Look, Picture},
+    scene::SceneDesc,
 };
 
 use crate::{
-    brightness::better_exposure,
     frames::{self, FrameOptions},
     exit::{Exit, WrongUsage, emit, emit_json, tell},
     interrupt::Interrupt,
@@ -105,12 +105,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     args.warn_about_bad_samples(&args.sample, &rendered);
     args.warn_about_imbalances(prepared, &rendered);
     let seconds = Seconds { load: loaded.load, build: loaded.build, render, ..Seconds::default() };
-    let taken = Taken { prepared, rendered: &rendered, seconds };
+    let taken = Taken { desc: &loaded.imported.desc, prepared, rendered: &rendered, seconds };
     args.finish(&taken, &outputs)
 }
 
 /// A picture that was rendered.
 pub(crate) struct Taken<'a> {
+    /// What it is of.
+    pub(crate) desc: &'a SceneDesc,
     pub(crate) prepared: &'a Prepared,
     pub(crate) rendered: &'a Rendered,
     /// But for writing it.
@@ -120,7 +122,7 @@ pub(crate) struct Taken<'a> {
 impl Taken<'_> {
     /// On its way into files.
     pub(crate) fn picture<'p>(&'p self, scene: &'p str) -> Picture<'p> {
-        let Self { prepared, rendered, seconds } = self;
+        let Self { desc: _, prepared, rendered, seconds } = self;
         let (pixels, render, interrupted) = (rendered.film.pixels(), seconds.render, rendered.cancelled);
         Picture { scene, prepared, pixels, render, interrupted }
     }
@@ -130,11 +132,11 @@ impl Args {
     /// Writes the files of a picture and says how it went.
     pub(crate) fn finish(&self, taken: &Taken<'_>, outputs: &[Destination]) -> anyhow::Result<Exit> {
         let scene = &self.sample.scene.scene;
-        let Taken { prepared, rendered, seconds } = taken;
+        let Taken { desc: _, prepared, rendered, seconds } = taken;
         let start = Instant::now();
         let picture = taken.picture(scene);
         let written = self.write(&picture, outputs);
-        self.warn_about_brightness(&picture, outputs);
+        self.explain_darkness(taken.desc, &picture, outputs);
         let seconds = Seconds { write: start.elapsed(), ..*seconds };
         let stats = Stats::new(&Facts { scene, prepared, rendered, seconds, outputs: &written });
         self.tell_summary(&picture, &stats);
@@ -207,17 +209,16 @@ impl Args {
         }
     }
 
-    pub(crate) fn warn_about_brightness(&self, picture: &Picture<'_>, outputs: &[Destination]) {
+    /// A picture that shows nothing explains itself.
+    pub(crate) fn explain_darkness(&self, desc: &SceneDesc, picture: &Picture<'_>, outputs: &[Destination]) {
         let seen = outputs.iter().any(|output| output.format == PictureFormat::Png);
         let shows_light = picture.prepared.integrator.output() == Output::Radiance;
         if self.talk.quiet || !seen || !shows_light {
             return;
         }
-        if let Some(better) = better_exposure(&picture.pixels, self.exposure) {
-            let much = if better < self.exposure { "bright" } else { "dark" };
-            tell(&format!(
-                "warning: most of the picture is too {much} to see anything: try --exposure {better}"
-            ));
+        for finding in doctor::explain(desc, picture.prepared, &picture.pixels, self.exposure) {
+            let remedy = finding.remedy.map(|remedy| format!("\n  {remedy}")).unwrap_or_default();
+            tell(&format!("warning: {}{remedy}", finding.message));
         }
     }
 
