@@ -43,7 +43,10 @@ fn slices_of_a_skinned_and_of_a_morphed_mesh_add_up_to_the_blurred_picture_f8() 
         let of = |time: f32, shutter: Interval, samples: u32, seed: u64| {
             let base = options("0", time);
             let show = Some(Show::Albedo);
-            values(&taken(&file, &Options { shutter: Some(shutter), samples: Some(samples), seed, show, ..base }))
+            values(&taken(
+                &file,
+                &Options { shutter: Some(shutter), samples: Some(samples), seed, show, ..base },
+            ))
         };
         let sliced = |from: f32, length: f32| {
             let mut mean = vec![0.0; 48 * 48];
@@ -55,7 +58,8 @@ fn slices_of_a_skinned_and_of_a_morphed_mesh_add_up_to_the_blurred_picture_f8() 
             mean
         };
         let blurred = of(start, Interval::new(0.0, length), 128, 99);
-        let (off, other) = (rms(&blurred, &sliced(start, length)), rms(&blurred, &sliced(start, length * 0.2)));
+        let (off, other) =
+            (rms(&blurred, &sliced(start, length)), rms(&blurred, &sliced(start, length * 0.2)));
         assert!(off < 0.015, "{name}: {off}");
         assert!(other > 3.0 * off, "{name}: {other} of another motion, {off}");
     }
@@ -104,7 +108,8 @@ fn frames_of_a_pbrt_file_have_the_same_bits_alone_and_in_sequence_r1() {
         AttributeBegin ActiveTransform EndTime Translate 0 1 0 ActiveTransform All\n\
         Translate 1.5 0 0 Shape \"sphere\" \"float radius\" 0.5 AttributeEnd\n";
     std::fs::write(&file, text).expect("written");
-    let base = Options { show: None, integrator: Some("path".into()), play: Play::First, ..options("0", 0.0) };
+    let base =
+        Options { show: None, integrator: Some("path".into()), play: Play::First, ..options("0", 0.0) };
     compared(&file, &base, &[0.0, 0.25, 0.9]);
     compared(&file, &Options { shutter: Some(Interval::new(0.0, 0.2)), ..base }, &[0.25, 0.75]);
 }

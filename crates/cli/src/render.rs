@@ -11,8 +11,8 @@ use durer::{
 };
 
 use crate::{
-    frames::{self, FrameOptions},
     exit::{Exit, WrongUsage, emit, emit_json, tell},
+    frames::{self, FrameOptions},
     interrupt::Interrupt,
     load::load,
     number::{counted, significant},

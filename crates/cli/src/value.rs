@@ -71,9 +71,12 @@ pub(crate) fn shutter(text: &str) -> Result<Exposure, String> {
     let (plain, in_frames) = text.strip_suffix('f').map_or((text, false), |plain| (plain, true));
     let [open, close]: [f32; 2] = match plain.contains(',') {
         true => numbers(plain, "OPEN,CLOSE: two numbers of seconds, or of frames with an f behind them")?,
-        false => [0.0, not_negative(plain).map_err(|_| {
-            "expected OPEN,CLOSE or LENGTH, in seconds, or in frames with an f behind".to_owned()
-        })?],
+        false => [
+            0.0,
+            not_negative(plain).map_err(|_| {
+                "expected OPEN,CLOSE or LENGTH, in seconds, or in frames with an f behind".to_owned()
+            })?,
+        ],
     };
     if !open.is_finite() || !close.is_finite() || open > close {
         return Err("must open before it closes".to_owned());

@@ -3,13 +3,13 @@ use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
 use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_io::import::{Moment, Play, Reading};
 use durer_render::{
     compile::LensOptions,
     drive::Antialias,
     film::Tile,
     integrator::{Lights, Sampling, Shadows, Show},
 };
-use durer_io::import::{Moment, Play, Reading};
 use durer_scene::{Limits, Missing};
 
 /// Rays per effect of the integrator `distributed`; see [`durer_render::integrator::Distributed`].

@@ -59,16 +59,22 @@ impl Sequence {
         };
         let node = integrator_node(desc, options, diagnostics);
         let kept = &mut self.kept;
-        prepared(desc, &node, options, diagnostics, |options: &CompileOptions, diagnostics: &mut Diagnostics| {
-            let with = (&*assets as &dyn durer_scene::Assets, options);
-            let (scene, new) = match kept.take() {
-                None => Kept::first(desc, with, diagnostics),
-                // A description that holds all moments is still the same.
-                Some(kept) if reel.is_none() => kept.again(desc, with, diagnostics),
-                Some(kept) => kept.moved(desc, with, diagnostics),
-            }?;
-            *kept = Some(new);
-            Some(scene)
-        })
+        prepared(
+            desc,
+            &node,
+            options,
+            diagnostics,
+            |options: &CompileOptions, diagnostics: &mut Diagnostics| {
+                let with = (&*assets as &dyn durer_scene::Assets, options);
+                let (scene, new) = match kept.take() {
+                    None => Kept::first(desc, with, diagnostics),
+                    // A description that holds all moments is still the same.
+                    Some(kept) if reel.is_none() => kept.again(desc, with, diagnostics),
+                    Some(kept) => kept.moved(desc, with, diagnostics),
+                }?;
+                *kept = Some(new);
+                Some(scene)
+            },
+        )
     }
 }

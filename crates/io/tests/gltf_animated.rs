@@ -172,7 +172,8 @@ fn pointers_change_materials_lights_cameras_and_textures() {
 
 #[test]
 fn a_pointer_into_a_texture_transform_moves_the_texture() {
-    let png = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==";
+    let png =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==";
     let (mut d, bytes) = document(&[0., 0., 0.5, 0.25, 1., 1.], "VEC2", 3);
     let info = json!({"index": 0, "extensions": {"KHR_texture_transform": {}}});
     d["images"] = json!([{"uri": format!("data:image/png;base64,{png}")}]);
@@ -195,22 +196,77 @@ fn what_cannot_be_played_is_told_with_its_place() {
     };
     type Break = fn(&mut Value, &mut Vec<u8>);
     let cases: [(Break, &str, &str); 16] = [
-        (|_, b| b[40..44].copy_from_slice(&1f32.to_le_bytes()), "/accessors/1", "times must rise: key 0 is at 1 s"),
-        (|_, b| b[40..44].copy_from_slice(&f32::NAN.to_le_bytes()), "/accessors/1", "time of key 1 is infinite or NaN"),
+        (
+            |_, b| b[40..44].copy_from_slice(&1f32.to_le_bytes()),
+            "/accessors/1",
+            "times must rise: key 0 is at 1 s",
+        ),
+        (
+            |_, b| b[40..44].copy_from_slice(&f32::NAN.to_le_bytes()),
+            "/accessors/1",
+            "time of key 1 is infinite or NaN",
+        ),
         (|_, b| b[52..56].copy_from_slice(&f32::INFINITY.to_le_bytes()), "/accessors/2", "infinite or NaN"),
-        (|d, _| d["animations"][0]["samplers"][0]["interpolation"] = json!("CUBIC"), "/animations/0/samplers/0/interpolation", "expected LINEAR, STEP or CUBICSPLINE, found \"CUBIC\""),
-        (|d, _| d["animations"][0]["samplers"][0]["interpolation"] = json!("CUBICSPLINE"), "/accessors/2", "3 values for 3 keys with two tangents each"),
-        (|d, _| d["animations"][0]["channels"][0]["sampler"] = json!(7), "/animations/0/channels/0/sampler", "there is only 1 sampler"),
-        (|d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("colour"), "/animations/0/channels/0/target/path", "found \"colour\""),
-        (|d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("rotation"), "/accessors/2", "expected 4 numbers per element"),
-        (|d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("weights"), "/accessors/2", "expected 1 number per element"),
-        (|d, _| d["animations"][0]["channels"][0]["target"]["node"] = json!(9), "/animations/0/channels/0/target/node", "there is only 1 node"),
-        (|d, _| d["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), "/animations/0/channels/0/target/path", "has a matrix"),
+        (
+            |d, _| d["animations"][0]["samplers"][0]["interpolation"] = json!("CUBIC"),
+            "/animations/0/samplers/0/interpolation",
+            "expected LINEAR, STEP or CUBICSPLINE, found \"CUBIC\"",
+        ),
+        (
+            |d, _| d["animations"][0]["samplers"][0]["interpolation"] = json!("CUBICSPLINE"),
+            "/accessors/2",
+            "3 values for 3 keys with two tangents each",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["sampler"] = json!(7),
+            "/animations/0/channels/0/sampler",
+            "there is only 1 sampler",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("colour"),
+            "/animations/0/channels/0/target/path",
+            "found \"colour\"",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("rotation"),
+            "/accessors/2",
+            "expected 4 numbers per element",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("weights"),
+            "/accessors/2",
+            "expected 1 number per element",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["target"]["node"] = json!(9),
+            "/animations/0/channels/0/target/node",
+            "there is only 1 node",
+        ),
+        (
+            |d, _| d["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
+            "/animations/0/channels/0/target/path",
+            "has a matrix",
+        ),
         (|d, _| d["accessors"][1]["count"] = json!(4_000_000_000u64), "/accessors/1", "do not fit"),
         (|d, _| d["accessors"][1]["count"] = json!(0), "/accessors/1", "at least one key"),
-        (|d, _| d["animations"][0]["channels"] = json!([d["animations"][0]["channels"][0], d["animations"][0]["channels"][0]]), "/animations/0/channels/1", "already changes the same"),
-        (|d, _| d["animations"] = pointing("/materials/0/alphaCutoff", "LINEAR"), "/animations/0/channels/0/target/extensions/KHR_animation_pointer/pointer", "leads to nothing"),
-        (|d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("pointer"), "/animations/0/channels/0/target", "needs the extension KHR_animation_pointer"),
+        (
+            |d, _| {
+                d["animations"][0]["channels"] =
+                    json!([d["animations"][0]["channels"][0], d["animations"][0]["channels"][0]])
+            },
+            "/animations/0/channels/1",
+            "already changes the same",
+        ),
+        (
+            |d, _| d["animations"] = pointing("/materials/0/alphaCutoff", "LINEAR"),
+            "/animations/0/channels/0/target/extensions/KHR_animation_pointer/pointer",
+            "leads to nothing",
+        ),
+        (
+            |d, _| d["animations"][0]["channels"][0]["target"]["path"] = json!("pointer"),
+            "/animations/0/channels/0/target",
+            "needs the extension KHR_animation_pointer",
+        ),
     ];
     for (number, (break_it, pointer, message)) in cases.into_iter().enumerate() {
         let (mut d, mut bytes) = base();

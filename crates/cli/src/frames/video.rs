@@ -56,7 +56,8 @@ const VP9: &[&str] = &[
     "iec61966-2-1",
 ];
 /// Colours are chosen from all frames.
-const GIF: &[&str] = &["-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0"];
+const GIF: &[&str] =
+    &["-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0"];
 
 const KINDS: [Kind; 5] = [
     Kind { suffix: "mp4", format: "mp4", options: H264 },

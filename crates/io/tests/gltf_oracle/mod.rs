@@ -41,24 +41,9 @@ fn placement(t: &[f64], q: &[f64], s: &[f64]) -> Matrix {
     let length = q.iter().map(|v| v * v).sum::<f64>().sqrt();
     let [x, y, z, w] = std::array::from_fn(|i| q[i] / length);
     [
-        [
-            (1. - 2. * (y * y + z * z)) * s[0],
-            2. * (x * y - z * w) * s[1],
-            2. * (x * z + y * w) * s[2],
-            t[0],
-        ],
-        [
-            2. * (x * y + z * w) * s[0],
-            (1. - 2. * (x * x + z * z)) * s[1],
-            2. * (y * z - x * w) * s[2],
-            t[1],
-        ],
-        [
-            2. * (x * z - y * w) * s[0],
-            2. * (y * z + x * w) * s[1],
-            (1. - 2. * (x * x + y * y)) * s[2],
-            t[2],
-        ],
+        [(1. - 2. * (y * y + z * z)) * s[0], 2. * (x * y - z * w) * s[1], 2. * (x * z + y * w) * s[2], t[0]],
+        [2. * (x * y + z * w) * s[0], (1. - 2. * (x * x + z * z)) * s[1], 2. * (y * z - x * w) * s[2], t[1]],
+        [2. * (x * z - y * w) * s[0], 2. * (y * z + x * w) * s[1], (1. - 2. * (x * x + y * y)) * s[2], t[2]],
         [0., 0., 0., 1.],
     ]
 }
@@ -208,7 +193,8 @@ impl Oracle {
     /// The corners of all triangles in the world, in the order of the document.
     pub(crate) fn corners(&self, animation: usize, time: f64) -> Vec<[f64; 3]> {
         let mut corners = Vec::new();
-        let mut stack: Vec<usize> = list(&self.json["scenes"][0]["nodes"]).iter().rev().map(|n| *n as usize).collect();
+        let mut stack: Vec<usize> =
+            list(&self.json["scenes"][0]["nodes"]).iter().rev().map(|n| *n as usize).collect();
         while let Some(node) = stack.pop() {
             let element = &self.json["nodes"][node];
             if let Some(children) = element.get("children") {

@@ -309,7 +309,8 @@ impl Placing<'_> {
                 kernel.keep_apart(geometry).map_err(about(*object))?;
             }
             let placement = Placement::from_motion(motion);
-            let instance = kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
+            let instance =
+                kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
             let (object, mesh, motion) = (*object, Arc::clone(mesh), motion.clone());
             targets.push(Target::Mesh(object, Arc::clone(&mesh)));
             held.push(Held { object, mesh, motion, geometry, instance, is_baked: false });

@@ -115,7 +115,9 @@ fn compiled(
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
     let kept = before.kept();
     let is_described_so = |kept: &&Kept| match before {
-        Before::Moment(_) => kept.origin == desc.origin.unwrap_or(kept.origin) && *kept.described == *desc.textures,
+        Before::Moment(_) => {
+            kept.origin == desc.origin.unwrap_or(kept.origin) && *kept.described == *desc.textures
+        }
         _ => true,
     };
     let known = kept.filter(is_described_so);
@@ -126,9 +128,11 @@ fn compiled(
         Before::Kept(kept) => kept.ground.clone(),
         _ => Arc::new(Ground::new(&mut nodes)),
     });
-    let camera = camera::chosen(desc, options, nodes.diagnostics)
-        .unwrap_or_else(|| automatic::camera(desc.extent.unwrap_or(ground.bounds), options, nodes.diagnostics));
-    let first_place = |camera: &CameraDesc| camera.world_from_camera.keys().first().map(|(_, m)| m.translation);
+    let camera = camera::chosen(desc, options, nodes.diagnostics).unwrap_or_else(|| {
+        automatic::camera(desc.extent.unwrap_or(ground.bounds), options, nodes.diagnostics)
+    });
+    let first_place =
+        |camera: &CameraDesc| camera.world_from_camera.keys().first().map(|(_, m)| m.translation);
     let origin = kept.map(|kept| kept.origin).or(desc.origin).or_else(|| first_place(&camera));
     let moves = ground.moves || desc.lights.iter().any(|l| !l.world_from_light.is_still());
     let view = camera::view(&mut nodes, &options.lens.given_to(camera.clone()), options, (moves, origin));

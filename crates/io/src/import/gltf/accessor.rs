@@ -118,11 +118,7 @@ impl<'b, 'a> Accessor<'b, 'a> {
         Self::at(document, buffers, document.item("accessors", reference)?)
     }
     /// The accessor `element`.
-    pub(super) fn at(
-        document: &Document<'a>,
-        buffers: &'b Buffers,
-        element: Element<'a>,
-    ) -> Checked<Self> {
+    pub(super) fn at(document: &Document<'a>, buffers: &'b Buffers, element: Element<'a>) -> Checked<Self> {
         let component = Component::parse(&element.required("componentType")?)?;
         let shape = element.required("type")?;
         let (columns, rows) = match shape.text()? {

@@ -65,7 +65,8 @@ fn parse(path: &Path, file: &str, reading: &Reading, imported: &mut Imported) ->
         Some(buffers) => document.keep(Animation::read(&document, buffers, &reading.play)).flatten(),
         None => None,
     };
-    let stories = document.keep(animation::told(&document, &reading.play, reading.moment)).unwrap_or_default();
+    let stories =
+        document.keep(animation::told(&document, &reading.play, reading.moment)).unwrap_or_default();
     let variants = document.keep(variant::names(&document)).unwrap_or_default();
     let worn = match &reading.variant {
         Some(wanted) => document.keep(variant::chosen(&document, &variants, wanted)),

@@ -264,7 +264,8 @@ impl<'w, 'a> Walk<'w, 'a> {
         for Pending { mesh, name, mut world, material, flat, apart } in self.pending {
             let Some(mut id) = ids.get(mesh.number).copied().flatten() else { continue };
             if let Some(node) = flat {
-                let Some(Some(flat)) = self.document.keep(flattened(self.document, &node, (id, &world), desc))
+                let Some(Some(flat)) =
+                    self.document.keep(flattened(self.document, &node, (id, &world), desc))
                 else {
                     continue;
                 };

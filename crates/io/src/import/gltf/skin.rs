@@ -102,7 +102,6 @@ impl Skin {
             *tangent = [turned[0], turned[1], turned[2], side];
         }
     }
-
 }
 
 /// The mean of the joints a vertex follows; weights are brought to the sum 1. One without weight follows the first.

@@ -63,7 +63,9 @@ impl Stance {
             let (Target::Translation(index) | Target::Rotation(index) | Target::Scale(index)) = target else {
                 continue;
             };
-            let Some(Local::Parts { translation, rotation, scale }) = locals.get_mut(*index) else { continue };
+            let Some(Local::Parts { translation, rotation, scale }) = locals.get_mut(*index) else {
+                continue;
+            };
             match (target, value.as_slice()) {
                 (Target::Rotation(_), [x, y, z, w]) => *rotation = [*x, *y, *z, *w],
                 (Target::Translation(_), [x, y, z]) => *translation = [*x, *y, *z],

@@ -80,7 +80,8 @@ impl Curve {
         };
         let shape = if meaning == Meaning::Weights { 1 } else { lanes };
         if output.lanes != shape {
-            let message = format!("expected {} per element, found {}", counted(shape, "number"), output.lanes);
+            let message =
+                format!("expected {} per element, found {}", counted(shape, "number"), output.lanes);
             return Err(output.element.fault(message));
         }
         if lanes == 0 || values.len() != times.len() * per_key * lanes {

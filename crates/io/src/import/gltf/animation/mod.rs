@@ -84,7 +84,9 @@ impl Animation {
         shutter: Interval,
     ) -> Checked<Vec<Stance>> {
         let curves = self.channels.iter().map(|channel| &channel.curve);
-        keys::stances(shutter, curves, |time| Stance::of(document, nodes, time, &self.changes(document, time)?))
+        keys::stances(shutter, curves, |time| {
+            Stance::of(document, nodes, time, &self.changes(document, time)?)
+        })
     }
 
     /// What nodes and morph targets are at `time`.
@@ -171,7 +173,8 @@ pub(super) fn told(document: &Document<'_>, play: &Play, moment: Moment) -> Chec
     if *play == Play::Rest {
         let what = durer_scene::counted(all.len(), "animation");
         let is = if all.len() == 1 { "is" } else { "are" };
-        let message = format!("{what} {is} not played: the scene is drawn at rest; --time-at SECONDS plays one");
+        let message =
+            format!("{what} {is} not played: the scene is drawn at rest; --time-at SECONDS plays one");
         document.warn(element, message);
     } else if moment.time > all.iter().fold(first.end, |end, other| end.max(other.end)) {
         document.warn(element, "the moment lies behind the last key: everything rests where that leaves it");

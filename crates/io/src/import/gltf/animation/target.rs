@@ -134,7 +134,9 @@ impl Target {
             ["meshes", mesh, "weights", weight] => {
                 Self::Weights(Bearer::Mesh(index(mesh)?), Some(index(weight)?))
             }
-            ["nodes", _, "extensions", "KHR_node_visibility", "visible"] => return Ok(Some(Self::Truth(names))),
+            ["nodes", _, "extensions", "KHR_node_visibility", "visible"] => {
+                return Ok(Some(Self::Truth(names)));
+            }
             _ if IDLE.contains(&last.as_str()) => return Ok(None),
             _ => return Self::number(document, pointer, names),
         };
@@ -166,7 +168,10 @@ impl Target {
     fn check<'a>(&self, node: &Element<'a>, at: &Element<'a>) -> Checked<()> {
         let places = !matches!(self, Self::Weights(..));
         if places && node.get("matrix")?.is_some() {
-            let message = format!("{} has a matrix: only translation, rotation and scale can be animated", node.pointer());
+            let message = format!(
+                "{} has a matrix: only translation, rotation and scale can be animated",
+                node.pointer()
+            );
             return Err(at.fault(message));
         }
         if !places && node.get("mesh")?.is_none() {

@@ -19,7 +19,9 @@ pub(super) fn unpack(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     let mut stream = Stream(bytes.get(..body).unwrap_or_default());
     match stream.byte()? {
         HEADER => {}
-        0xa1 => return Err("it is of version 1, which durer does not read: `gltf-transform copy` unpacks it"),
+        0xa1 => {
+            return Err("it is of version 1, which durer does not read: `gltf-transform copy` unpacks it");
+        }
         _ => return Err("it does not begin as attributes do"),
     }
     let mut last = tail.to_vec();

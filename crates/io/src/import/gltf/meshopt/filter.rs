@@ -75,23 +75,23 @@ mod tests {
             let (one, code) = (2047i16 & !3, (2047i16 & !3) | largest);
             let mut row: Vec<u8> = [one / 2, 0, 0, code].iter().flat_map(|v| v.to_le_bytes()).collect();
             quaternion(&mut row);
-            let numbers: Vec<f64> = row
-                .as_chunks::<2>()
-                .0
-                .iter()
-                .map(|b| f64::from(i16::from_le_bytes(*b)) / 32767.0)
-                .collect();
+            let numbers: Vec<f64> =
+                row.as_chunks::<2>().0.iter().map(|b| f64::from(i16::from_le_bytes(*b)) / 32767.0).collect();
             let x = f64::from(one / 2) / 2047.0 * 0.5f64.sqrt();
             let mut expected = [0.0; 4];
             expected[largest as usize] = (1.0 - x * x).sqrt();
             expected[(largest as usize + 1) % 4] = x;
-            assert!(numbers.iter().zip(expected).all(|(a, b)| (a - b).abs() < 4e-5), "{numbers:?} {expected:?}");
+            assert!(
+                numbers.iter().zip(expected).all(|(a, b)| (a - b).abs() < 4e-5),
+                "{numbers:?} {expected:?}"
+            );
         }
     }
 
     #[test]
     fn exponents_scale_whole_numbers() {
-        let packed = |exponent: i8, whole: i32| ((i32::from(exponent) << 24) | (whole & 0xff_ffff)).to_le_bytes();
+        let packed =
+            |exponent: i8, whole: i32| ((i32::from(exponent) << 24) | (whole & 0xff_ffff)).to_le_bytes();
         let mut bytes = [packed(-3, 5), packed(2, -7), packed(0, 0)].concat();
         exponential(&mut bytes);
         assert_eq!(bytes, [0.625f32, -28.0, 0.0].iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>());
