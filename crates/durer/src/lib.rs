@@ -52,6 +52,7 @@ pub use transport::with_usual_depth;
 
 use std::path::Path;
 
+use durer_io::import::Play;
 use durer_scene::{Limits, Location};
 
 /// Reads a scene: a file, or a built-in scene by name, at rest. A file of that name in the current folder is not mistaken for
@@ -63,6 +64,21 @@ pub fn open(scene: &str) -> Imported {
 /// Reads a scene as `options` want it: at their moment of their animation, in their materials. Elsewhere [`prepare`] shows
 /// what options ask for; of a file that holds an animation this must be known when it is read.
 pub fn open_for(scene: &str, options: &Options) -> Imported {
+    let mut imported = read(scene, options);
+    let Imported { desc, diagnostics, .. } = &mut imported;
+    if !diagnostics.has_errors() {
+        if let (Play::Named(name), true) = (&options.play, desc.animations.is_empty()) {
+            diagnostics.error(Location::None, format!("no animation \"{name}\": the scene has none"));
+        }
+        if let (Some(name), true) = (&options.variant, desc.variants.is_empty()) {
+            let message = format!("no variant \"{name}\": the scene has one set of materials");
+            diagnostics.error(Location::None, message);
+        }
+    }
+    imported
+}
+
+fn read(scene: &str, options: &Options) -> Imported {
     let path = Path::new(scene);
     if let Some(builtin) = builtin::find(scene) {
         builtin.import()

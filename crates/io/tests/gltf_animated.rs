@@ -17,13 +17,15 @@ fn document(values: &[f32], kind: &str, count: usize) -> (Value, Vec<u8>) {
     bytes.extend(floats(&[1., 2., 4.]));
     bytes.extend(floats(values));
     let accessor = |view: usize, kind: &str, count: usize| json!({"bufferView": view, "componentType": 5126, "type": kind, "count": count});
-    let document = json!({
+    let mut document = json!({
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [accessor(0, "VEC3", 3), accessor(1, "SCALAR", 3), accessor(2, kind, count)],
         "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12},
             {"buffer": 0, "byteOffset": 48, "byteLength": 4 * values.len()}],
     });
+    document["accessors"][1]["min"] = json!([1]);
+    document["accessors"][1]["max"] = json!([4]);
     (document, bytes)
 }
 
@@ -292,7 +294,8 @@ fn an_animation_is_chosen_by_name_or_index() {
     let wrong = read(Play::Named("Gi".into()));
     let error = wrong.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
     assert_eq!(error.hint.as_deref(), Some("did you mean \"Go\"?"));
-    assert_eq!(wrong.desc.animations.first().map(|a| a.name.as_str()), None, "nothing is described");
+    let told = wrong.desc.animations.first().map(|a| (a.name.as_str(), a.start, a.end));
+    assert_eq!(told, Some(("Go", 1.0, 4.0)));
 }
 
 #[test]

@@ -69,13 +69,13 @@ fn parse(path: &Path, file: &str, reading: &Reading, imported: &mut Imported) ->
         document.keep(animation::told(&document, &reading.play, reading.moment)).unwrap_or_default();
     let variants = document.keep(variant::names(&document)).unwrap_or_default();
     let worn = match &reading.variant {
-        Some(wanted) => document.keep(variant::chosen(&document, &variants, wanted)),
-        None => None,
+        Some(wanted) if !variants.is_empty() => document.keep(variant::chosen(&document, &variants, wanted)),
+        _ => None,
     };
     let sound = !document.has_errors();
+    (imported.desc.animations, imported.desc.variants) = (stories, variants);
     imported.diagnostics.append(document.into_complaints());
     if let Some(buffers) = loaded.filter(|_| sound) {
-        (imported.desc.animations, imported.desc.variants) = (stories, variants);
         if let Some(worn) = worn {
             variant::wear(&mut value, worn);
         }

@@ -26,7 +26,6 @@ pub(super) fn chosen(document: &Document<'_>, names: &[String], wanted: &str) ->
     let near = nearest_word(wanted, names.iter().map(String::as_str));
     let hint = match near {
         Some(near) => format!("did you mean \"{near}\"?"),
-        None if names.is_empty() => "the file has one set of materials only".to_owned(),
         None => format!("there are: {}", names.join(", ")),
     };
     let at: &Element<'_> = &document.root;

@@ -14,17 +14,21 @@ const MOST_STRAY: f64 = 1.0 / 500.0;
 const DEPTH: usize = 6;
 /// Most moments of one picture.
 const MOST: usize = 257;
+/// Most places of nodes at all of them together.
+const MOST_PLACES: usize = 1 << 22;
 
 /// The scene at the moments that `shutter` needs; a single one if nothing moves.
 pub(super) fn stances<'c>(
     shutter: Interval,
     curves: impl Iterator<Item = &'c Curve>,
+    nodes: usize,
     at: impl Fn(f32) -> Checked<Stance>,
 ) -> Checked<Vec<Stance>> {
     if shutter.min >= shutter.max {
         return Ok(vec![at(shutter.min)?]);
     }
-    let mut keys = moments(shutter, curves).into_iter().map(&at).collect::<Checked<Vec<_>>>()?;
+    let most = MOST.min(MOST_PLACES / nodes.max(1)).max(2);
+    let mut keys = moments(shutter, curves, most).into_iter().map(&at).collect::<Checked<Vec<_>>>()?;
     let mut open = vec![true; keys.len()];
     for _ in 0..DEPTH {
         let mut middles = Vec::with_capacity(keys.len());
@@ -38,7 +42,7 @@ pub(super) fn stances<'c>(
         for stance in keys.iter().chain(middles.iter().flatten()) {
             way.grow(&first.apart(stance));
         }
-        let room = MOST.saturating_sub(keys.len());
+        let room = most.saturating_sub(keys.len());
         let (mut halved, mut opened, mut left) = (Vec::new(), Vec::new(), room);
         let mut middles = middles.into_iter();
         let mut rest = keys.into_iter().peekable();
@@ -68,7 +72,7 @@ pub(super) fn stances<'c>(
 }
 
 /// Where the shutter opens and closes and all keys in between; as many evenly spread moments if those are too many.
-fn moments<'c>(shutter: Interval, curves: impl Iterator<Item = &'c Curve>) -> Vec<f32> {
+fn moments<'c>(shutter: Interval, curves: impl Iterator<Item = &'c Curve>, most: usize) -> Vec<f32> {
     let mut all = vec![shutter.min, shutter.max];
     for curve in curves {
         let inside = curve.times().iter().copied().filter(|t| shutter.min < *t && *t < shutter.max);
@@ -81,10 +85,10 @@ fn moments<'c>(shutter: Interval, curves: impl Iterator<Item = &'c Curve>) -> Ve
     }
     all.sort_unstable_by(f32::total_cmp);
     all.dedup();
-    if all.len() <= MOST {
+    if all.len() <= most {
         return all;
     }
-    let steps = MOST - 1;
+    let steps = most - 1;
     let mut even: Vec<f32> = (0..=steps).map(|i| shutter.at(i as f32 / steps as f32)).collect();
     even.dedup();
     even

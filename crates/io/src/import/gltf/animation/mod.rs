@@ -54,6 +54,8 @@ impl Animation {
         let all = document.root.list("animations")?;
         let chosen: Vec<&Element<'_>> = match play {
             Play::Rest => return Ok(None),
+            // Who asked for it says so: no file but of this format could have one.
+            Play::Named(_) if all.is_empty() => return Ok(None),
             Play::First => all.first().into_iter().collect(),
             Play::Named(name) => named(document, &all, name)?,
         };
@@ -84,7 +86,7 @@ impl Animation {
         shutter: Interval,
     ) -> Checked<Vec<Stance>> {
         let curves = self.channels.iter().map(|channel| &channel.curve);
-        keys::stances(shutter, curves, |time| {
+        keys::stances(shutter, curves, nodes.locals.len(), |time| {
             Stance::of(document, nodes, time, &self.changes(document, time)?)
         })
     }
@@ -200,7 +202,6 @@ fn named<'e, 'a>(
     let mut fault = document.root.fault_at("animations", format!("no animation \"{wanted}\""));
     fault.hint = Some(match (near, all.len()) {
         (Some(near), _) => format!("did you mean \"{near}\"?"),
-        (None, 0) => "the file has no animation".to_owned(),
         (None, 1) => "there is one, with the index 0".to_owned(),
         (None, n) => format!("there are {n}: {}, or an index from 0 to {}", names.join(", "), n - 1),
     });
