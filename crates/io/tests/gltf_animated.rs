@@ -31,7 +31,7 @@ fn document(values: &[f32], kind: &str, count: usize) -> (Value, Vec<u8>) {
 
 /// One animation with one channel.
 fn animation(path: &str, way: &str) -> Value {
-    json!([{"name": "Go", "channels": [{"sampler": 0, "target": {"node": 0, "path": path}}],
+    json!([{"name": "Walking", "channels": [{"sampler": 0, "target": {"node": 0, "path": path}}],
         "samplers": [{"input": 1, "output": 2, "interpolation": way}]}])
 }
 
@@ -287,15 +287,15 @@ fn an_animation_is_chosen_by_name_or_index() {
         let moment = Moment { time: 2.0, shutter: Interval::point(2.0) };
         import_as(d.clone(), &bytes, Reading { play, moment, ..Reading::default() })
     };
-    for play in [Play::First, Play::Named("Go".into()), Play::Named("0".into()), Play::Named("all".into())] {
+    for play in [Play::First, Play::Named("Walking".into()), Play::Named("0".into()), Play::Named("all".into())] {
         assert_eq!(place(&read(play).desc).x, 6.0);
     }
     assert_eq!(place(&read(Play::Rest).desc).x, 0.0);
-    let wrong = read(Play::Named("Gi".into()));
+    let wrong = read(Play::Named("Walkng".into()));
     let error = wrong.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
-    assert_eq!(error.hint.as_deref(), Some("did you mean \"Go\"?"));
+    assert_eq!(error.hint.as_deref(), Some("did you mean \"Walking\"?"));
     let told = wrong.desc.animations.first().map(|a| (a.name.as_str(), a.start, a.end));
-    assert_eq!(told, Some(("Go", 1.0, 4.0)));
+    assert_eq!(told, Some(("Walking", 1.0, 4.0)));
 }
 
 #[test]
@@ -303,7 +303,7 @@ fn a_variant_wears_its_materials() {
     let (mut d, bytes) = document(&[], "SCALAR", 0);
     d["accessors"].as_array_mut().expect("accessors").pop();
     d["materials"] = json!([{"name": "own"}, {"name": "red"}, {"name": "blue"}]);
-    d["extensions"] = json!({"KHR_materials_variants": {"variants": [{"name": "Fire"}, {"name": "Sea"}]}});
+    d["extensions"] = json!({"KHR_materials_variants": {"variants": [{"name": "Fire"}, {"name": "Ocean"}]}});
     let mappings = json!([{"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}]);
     d["meshes"][0]["primitives"][0]["material"] = json!(0);
     d["meshes"][0]["primitives"][0]["extensions"] = json!({"KHR_materials_variants": {"mappings": mappings}});
@@ -311,12 +311,12 @@ fn a_variant_wears_its_materials() {
         let variant = variant.map(str::to_owned);
         import_as(d.clone(), &bytes, Reading { variant, ..Reading::default() })
     };
-    for (variant, index) in [(None, 0), (Some("Fire"), 1), (Some("Sea"), 2), (Some("1"), 2)] {
+    for (variant, index) in [(None, 0), (Some("Fire"), 1), (Some("Ocean"), 2), (Some("1"), 2)] {
         let desc = read(variant).desc;
         assert_eq!(desc.shapes[0].material.map(|m| m.index()), Some(index), "{variant:?}");
-        assert_eq!(desc.variants, ["Fire", "Sea"]);
+        assert_eq!(desc.variants, ["Fire", "Ocean"]);
     }
-    let wrong = read(Some("See"));
+    let wrong = read(Some("Ocen"));
     let error = wrong.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
-    assert_eq!(error.hint.as_deref(), Some("did you mean \"Sea\"?"));
+    assert_eq!(error.hint.as_deref(), Some("did you mean \"Ocean\"?"));
 }

@@ -68,7 +68,7 @@ fn wrong_words_are_usage_errors() {
 fn ctrl_c_leaves_whole_frames_only() {
     let place = Place::new().with("x.pbrt", MOVING);
     let mut child = place
-        .command("render x.pbrt --spp 20000 --threads 1 --frames 0..100000 -o f.#.png")
+        .command("render x.pbrt --spp 100 --threads 1 --frames 0..100000 -o f.#.png")
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
