@@ -146,13 +146,19 @@ impl Oracle {
         Some(match way {
             "STEP" => a.to_vec(),
             "LINEAR" if path == "rotation" => {
-                let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+                // Rounded as files have them: they are of length 1.
+                let unit = |q: &[f64]| {
+                    let length = q.iter().map(|v| v * v).sum::<f64>().sqrt();
+                    q.iter().map(|v| v / length).collect::<Vec<f64>>()
+                };
+                let (a, b) = (unit(a), unit(b));
+                let dot: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
                 let angle = dot.abs().min(1.0).acos();
                 let (p, q) = match angle.sin() {
                     0.0 => (1.0 - t, t),
                     sine => (((1.0 - t) * angle).sin() / sine, (t * angle).sin() / sine),
                 };
-                a.iter().zip(b).map(|(a, b)| p * a + q * b * dot.signum()).collect()
+                a.iter().zip(&b).map(|(a, b)| p * a + q * b * dot.signum()).collect()
             }
             "LINEAR" => a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect(),
             _ => {

@@ -91,21 +91,22 @@ impl Stance {
 
     /// How far everything is from where it is in `other`.
     pub(super) fn apart(&self, other: &Self) -> Way {
-        self.strays(other, other)
+        self.strays((other, other), 0.0)
     }
-    /// How far everything is from the middle between two moments.
-    pub(super) fn strays(&self, a: &Self, b: &Self) -> Way {
+    /// How far everything is from the place a share `u` of the straight way from one moment to another.
+    pub(super) fn strays(&self, (a, b): (&Self, &Self), u: f64) -> Way {
         let pairs = a.world.iter().zip(&b.world);
         let nodes = self.world.iter().zip(pairs).map(|(m, (a, b))| {
-            let linear = m.matrix3 - (a.matrix3 + b.matrix3) * 0.5;
-            let shift = m.translation - (a.translation + b.translation) * 0.5;
+            let linear = m.matrix3 - (a.matrix3 * (1.0 - u) + b.matrix3 * u);
+            let shift = m.translation - a.translation.lerp(b.translation, u);
             [length(&linear), shift.length()]
         });
         let nodes = nodes.collect();
         let weights = self.weights.iter().map(|(bearer, own)| {
             let of = |stance: &Self| stance.weights.get(bearer).cloned().unwrap_or_default();
-            let middle = of(a).into_iter().zip(of(b)).map(|(a, b)| (a + b) * 0.5);
-            own.iter().zip(middle).map(|(w, m)| f64::from((w - m).abs())).fold(0.0, f64::max)
+            let between = |(a, b): (f32, f32)| f64::from(a) * (1.0 - u) + f64::from(b) * u;
+            let middle = of(a).into_iter().zip(of(b)).map(between);
+            own.iter().zip(middle).map(|(w, m)| (f64::from(*w) - m).abs()).fold(0.0, f64::max)
         });
         Way { nodes, weights: weights.collect() }
     }

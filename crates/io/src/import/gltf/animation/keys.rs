@@ -2,7 +2,8 @@
 //!
 //! There is one where it opens, one where it closes, and one at each key of the curves in between, with one just before
 //! it where a value jumps. Between neighbours things move straight (and turn evenly) in the picture; a stretch is halved
-//! until, in its middle, nothing strays from that by more than a 500th of the way that it makes while the shutter is open.
+//! until, in its middle and at its first quarter, nothing strays from that by more than a 500th of the way that it makes
+//! while the shutter is open. The middle alone would not do: that of a curve which eases in and out lies on the line.
 use durer_core::math::Interval;
 
 use super::curve::Curve;
@@ -35,11 +36,12 @@ pub(super) fn stances<'c>(
         for ((a, b), open) in keys.iter().zip(keys.iter().skip(1)).zip(&open) {
             let middle = a.time + (b.time - a.time) * 0.5;
             let between = *open && a.time < middle && middle < b.time;
-            middles.push(if between { Some(at(middle)?) } else { None });
+            let quarter = a.time + (b.time - a.time) * 0.25;
+            middles.push(if between { Some([at(middle)?, at(quarter)?]) } else { None });
         }
         let Some(first) = keys.first() else { break };
         let mut way = first.apart(first);
-        for stance in keys.iter().chain(middles.iter().flatten()) {
+        for stance in keys.iter().chain(middles.iter().flatten().flatten()) {
             way.grow(&first.apart(stance));
         }
         let room = most.saturating_sub(keys.len());
@@ -48,8 +50,10 @@ pub(super) fn stances<'c>(
         let mut rest = keys.into_iter().peekable();
         while let Some(stance) = rest.next() {
             let strays = match (middles.next().flatten(), rest.peek()) {
-                (Some(middle), Some(next)) if left > 0 => {
-                    middle.strays(&stance, next).exceeds(&way, MOST_STRAY).then_some(middle)
+                (Some([middle, quarter]), Some(next)) if left > 0 => {
+                    let exceeds =
+                        |at: &Stance, u| at.strays((&stance, next), u).exceeds(&way, MOST_STRAY);
+                    (exceeds(&middle, 0.5) || exceeds(&quarter, 0.25)).then_some(middle)
                 }
                 _ => None,
             };
