@@ -2,7 +2,7 @@
 use std::collections::BTreeMap;
 
 use durer_accel::BuildOptions;
-use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
+use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::{Basis, Carried}};
 use durer_io::import::Imported;
 use durer_model::filter::Filter;
 use durer_render::{
@@ -118,7 +118,9 @@ pub(crate) fn prepared(
     check_content(desc, &scene, options.nothing, diagnostics)?;
     let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
     filter(desc, &mut scene, integrator.output(), eye.total, diagnostics);
-    check_antialias(options, &scene, &*integrator, diagnostics);
+    let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
+    let carried = options.carried.unwrap_or(of_film);
+    check_antialias(options, &scene, (&*integrator, carried), diagnostics);
     let settings = Settings {
         samples: eye.total,
         sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
@@ -127,6 +129,7 @@ pub(crate) fn prepared(
         threads: options.threads.unwrap_or_else(all_cores),
         crop: options.crop,
         antialias: options.antialias,
+        carried,
     };
     Some(Prepared {
         scene,
@@ -184,10 +187,16 @@ fn has_visible_sky(scene: &Scene) -> bool {
 fn check_antialias(
     options: &Options,
     scene: &Scene,
-    integrator: &dyn Integrator,
+    (integrator, carried): (&dyn Integrator, Carried),
     diagnostics: &mut Diagnostics,
 ) {
     if options.antialias == Antialias::Supersample {
+        return;
+    }
+    if carried == Carried::Wavelengths {
+        let message = "adaptive antialiasing compares single samples, and four wavelengths are no colour: pixels are \
+                       supersampled";
+        diagnostics.warning(Location::None, message);
         return;
     }
     if let Output::Data(_) = integrator.output() {

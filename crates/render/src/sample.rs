@@ -48,6 +48,8 @@ pub struct PathRay {
     pub compression: f32,
     /// Some bounce before was blurred.
     pub is_blurred: bool,
+    /// It went where only the leading wavelength goes: the others carry nothing.
+    pub is_collapsed: bool,
     /// The point of a surface that the ray leaves; rounding errors before its origin, on the way all the same. The origin
     /// if it leaves none.
     pub from: Point3,
@@ -73,6 +75,7 @@ impl PathRay {
             lit: Lit { p: ray.o, n: None, time: ray.time },
             compression: 1.0,
             is_blurred: false,
+            is_collapsed: false,
             from: ray.o,
             media: MediumStack::default(),
             walked: 0.0,

@@ -57,6 +57,8 @@ pub struct FilmDesc {
     pub height: Option<u32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// Rays shall carry wavelengths instead of red, green and blue.
+    pub spectral: bool,
     /// Where the file wants the picture written; shown by `info`, never written to unasked.
     pub filename: Option<String>,
 }

@@ -122,7 +122,7 @@ impl Subject<'_> {
         };
         let is_adaptive = settings.antialias != Antialias::Supersample;
         let nodes: Vec<Node> =
-            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, id, n)).collect();
+            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, &recorded.basis, id, n)).collect();
         let eye = recorded.eye.as_ref();
         let mut tree = Tree {
             version: VERSION,
@@ -194,7 +194,7 @@ fn as_film(value: [f32; 3]) -> [f32; 3] {
     pixel.mean()
 }
 
-fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
+fn node(prepared: &Prepared, basis: &Basis, id: usize, node: &TreeNode) -> Node {
     let scene = &prepared.scene;
     let place = |p: Point3| world(&scene.view, p);
     let shading = node.shading.as_ref();
@@ -228,7 +228,7 @@ fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
             unoccluded: of(l.unoccluded),
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
-        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
+        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, basis, m)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
         lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
         drawn: node.chosen.as_ref().map(drawn),

@@ -6,6 +6,7 @@ use crate::{
         texture::{Looked, TextureLookup},
     },
     probe::TreeMedia,
+    spectrum::Basis,
 };
 
 use super::{
@@ -14,12 +15,12 @@ use super::{
     number::Number,
 };
 
-pub(super) fn media(scene: &Scene, media: &TreeMedia) -> Media {
+pub(super) fn media(scene: &Scene, basis: &Basis, media: &TreeMedia) -> Media {
     let body = |id| {
         let medium = scene.media.get(id);
         let fills = |o: &&crate::Object| scene.media.of_material(o.material) == Some(id);
         let object = scene.objects.iter().find(fills).map(|o| o.name.clone());
-        Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta) }
+        Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta(basis)) }
     };
     Media {
         before: media.before.iter().map(body).collect(),

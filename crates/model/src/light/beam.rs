@@ -5,7 +5,7 @@ use durer_core::{
     glam::{DAffine3, DMat3},
     math::{Bounds3, Point3, Vector3, float::cos},
     sampling::Sampler,
-    spectrum::Color,
+    spectrum::{Color, LightColor},
 };
 
 use super::{Cone, Light, LightBound, LightBounds, LightCx, LightSample, Track, falloff::Falloff, largest};
@@ -29,14 +29,14 @@ pub(super) struct Beam<P> {
     position: Point3,
     pattern: P,
     /// Factor on the pattern.
-    factor: Color,
+    factor: LightColor,
     track: Track,
     /// What leads from render space to the light's own directions, if it stands still.
     still: Option<(Point3, DMat3)>,
 }
 
 impl<P: Pattern> Beam<P> {
-    pub(super) fn new(position: Point3, pattern: P, factor: Color) -> Self {
+    pub(super) fn new(position: Point3, pattern: P, factor: LightColor) -> Self {
         let track = Track::still(DAffine3::IDENTITY);
         Self { position, pattern, factor, track, still: Some((position, DMat3::IDENTITY)) }
     }
@@ -77,12 +77,12 @@ impl<P: Pattern> Light for Beam<P> {
         let (position, own) = self.at(cx.time);
         let (wi, irradiance) = Falloff::InverseSquare.towards(position, p)?;
         let d = Vector3::from_f64((own * -wi.to_f64()).normalize());
-        let weight = cx.basis.emission(self.pattern.intensity(d) * self.factor) * irradiance;
+        let weight = cx.basis.tinted(&self.factor, self.pattern.intensity(d)) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
     /// Of one that moves there is no bound, as it may pass near anything.
     fn bound(&self) -> LightBound {
-        let intensity = self.pattern.largest() * largest(self.factor);
+        let intensity = self.pattern.largest() * largest(self.factor.color);
         let (facing, fades_from) = match self.still {
             Some((position, _)) => (intensity, Some(position)),
             None => (if intensity > 0.0 { f32::INFINITY } else { 0.0 }, None),

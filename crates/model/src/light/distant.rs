@@ -9,7 +9,7 @@ use durer_core::{
         float::{cos, sin, sqr},
     },
     sampling::{Dim, Sampler},
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, LightColor, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -20,30 +20,30 @@ use super::{Light, LightBound, LightCx, LightSample, Track, axis, largest, scale
 pub struct Distant {
     /// The direction in which the light travels.
     anchor: Anchor,
-    irradiance: Color,
+    irradiance: LightColor,
     disk: Option<Disk>,
 }
 
 /// A light that has a size.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Disk {
-    radiance: Color,
+    radiance: LightColor,
     /// `1 - cos` of half the angle across it.
     opening: f32,
 }
 
 impl Disk {
     /// One of so many degrees across that gives this irradiance.
-    fn new(irradiance: Color, degrees: f32) -> Option<Self> {
+    fn new(irradiance: &LightColor, degrees: f32) -> Option<Self> {
         let half = 0.5 * degrees.to_radians();
         let opening = 2.0 * sqr(sin(0.5 * half));
-        (opening > 0.0).then(|| Self { radiance: irradiance * (1.0 / (PI * sqr(sin(half)))), opening })
+        (opening > 0.0).then(|| Self { radiance: irradiance.clone() * (1.0 / (PI * sqr(sin(half)))), opening })
     }
-    fn density(self) -> f32 {
+    fn density(&self) -> f32 {
         1.0 / (TAU * self.opening)
     }
     /// Whether unit direction `d` is in it whose middle is at `middle`.
-    fn holds(self, middle: Vector3, d: Vector3) -> bool {
+    fn holds(&self, middle: Vector3, d: Vector3) -> bool {
         // 1 - cos of the angle between them.
         0.5 * (d - middle).length_squared() <= self.opening
     }
@@ -51,8 +51,9 @@ impl Disk {
 
 impl Distant {
     /// A light that travels from `from` along unit `direction`, with this irradiance; `degrees` across.
-    pub(super) fn new(from: Point3, direction: Vector3, irradiance: Color, degrees: f32) -> Self {
-        Self { anchor: Anchor::new(from, direction), irradiance, disk: Disk::new(irradiance, degrees) }
+    pub(super) fn new(from: Point3, direction: Vector3, irradiance: LightColor, degrees: f32) -> Self {
+        let disk = Disk::new(&irradiance, degrees);
+        Self { anchor: Anchor::new(from, direction), irradiance, disk }
     }
 }
 
@@ -102,8 +103,8 @@ impl Light for Distant {
     }
     fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let middle = -self.anchor.at(cx.time).1;
-        let Some(disk) = self.disk else {
-            let weight = cx.basis.emission(self.irradiance);
+        let Some(disk) = &self.disk else {
+            let weight = cx.basis.light(&self.irradiance);
             return (!weight.is_black()).then_some(LightSample {
                 wi: middle,
                 point: None,
@@ -116,7 +117,7 @@ impl Light for Distant {
         let (r, azimuth) = ((down * (2.0 - down)).sqrt(), TAU * u.y);
         let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - down);
         let wi = Frame::from_z(Normal3::from(middle)).to_world(local).normalize();
-        let weight = cx.basis.emission(disk.radiance) / disk.density();
+        let weight = cx.basis.light(&disk.radiance) / disk.density();
         (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(disk.density()) })
     }
     fn is_disk(&self) -> bool {
@@ -124,22 +125,22 @@ impl Light for Distant {
     }
     fn pdf_escaped(&self, cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
         let middle = -self.anchor.at(cx.time).1;
-        self.disk.filter(|disk| disk.holds(middle, d)).map_or(0.0, Disk::density)
+        self.disk.as_ref().filter(|disk| disk.holds(middle, d)).map_or(0.0, Disk::density)
     }
     fn escaped(&self, basis: Basis, d: Vector3) -> Spectrum {
         // Suns that move while the shutter is open are seen where they are at first.
         let middle = -self.anchor.at(f32::NEG_INFINITY).1;
-        let radiance = self.disk.filter(|disk| disk.holds(middle, d)).map(|disk| disk.radiance);
-        radiance.map_or(Spectrum::BLACK, |radiance| basis.emission(radiance))
+        let disk = self.disk.as_ref().filter(|disk| disk.holds(middle, d));
+        disk.map_or(Spectrum::BLACK, |disk| basis.light(&disk.radiance))
     }
     fn bound(&self) -> LightBound {
-        let seen = self.disk.map_or(0.0, |disk| largest(disk.radiance));
-        LightBound { seen, facing: largest(self.irradiance), ..LightBound::default() }
+        let seen = self.disk.as_ref().map_or(0.0, |disk| largest(disk.radiance.color));
+        LightBound { seen, facing: largest(self.irradiance.color), ..LightBound::default() }
     }
     fn reach(&self, _p: Point3, n: Option<Normal3>, time: f32) -> f32 {
         let (_, direction) = self.anchor.at(time);
         // Of a disk some may rise where the middle does not.
-        let above = self.disk.map_or(0.0, |disk| (disk.opening * (2.0 - disk.opening)).sqrt());
+        let above = self.disk.as_ref().map_or(0.0, |disk| (disk.opening * (2.0 - disk.opening)).sqrt());
         self.irradiance.luminance() * n.map_or(1.0, |n| (above - n.dot(direction)).max(0.0))
     }
     fn power(&self, radius: f32) -> f32 {

@@ -34,7 +34,7 @@ use durer_core::{
         float::{cos, sin, sqr},
     },
     sampling::Sampler,
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, Color, LightColor, Spectrum},
 };
 use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
@@ -227,14 +227,17 @@ const POSITION: ParamSpec =
 
 /// The colour parameter `name` times `scale`. If `total` is given, it is the luminance that the quantity reached by the
 /// factor `reach` shall have before `scale` (pbrt-v4's `power` and `illuminance`): it replaces the colour's magnitude.
-fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
-    let (color, scale) = (args.color(name), args.float("scale"));
+fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> LightColor {
+    let (color, scale) = (args.light_color(name), args.float("scale"));
     match args.optional_float(total) {
         Some(_) if color.luminance() <= 0.0 => {
             args.error(name, format!("a light of \"{total}\" needs a colour \"{name}\" that is not black"));
-            Color::BLACK
+            LightColor::default()
         }
-        Some(total) => color * (scale * total / (reach * color.luminance())),
+        Some(total) => {
+            let factor = scale * total / (reach * color.luminance());
+            color * factor
+        }
         None => color * scale,
     }
 }

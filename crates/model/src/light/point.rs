@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 use durer_core::{
     math::{Normal3, Point3, Vector3},
     sampling::Sampler,
-    spectrum::Color,
+    spectrum::LightColor,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
@@ -17,7 +17,7 @@ use super::{
 #[derive(Debug)]
 pub struct Point {
     anchor: Anchor,
-    intensity: Color,
+    intensity: LightColor,
     falloff: Falloff,
 }
 
@@ -50,11 +50,11 @@ impl Light for Point {
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (position, _) = self.anchor.at(cx.time);
         let (wi, irradiance) = self.falloff.towards(position, p)?;
-        let weight = cx.basis.emission(self.intensity) * irradiance;
+        let weight = cx.basis.light(&self.intensity) * irradiance;
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
     fn bound(&self) -> LightBound {
-        self.falloff.bound(&self.anchor, self.intensity)
+        self.falloff.bound(&self.anchor, self.intensity.color)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

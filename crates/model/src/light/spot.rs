@@ -11,7 +11,7 @@ use durer_core::{
         float::{acos, cos},
     },
     sampling::Sampler,
-    spectrum::Color,
+    spectrum::LightColor,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -27,7 +27,7 @@ pub struct Spot {
     anchor: Anchor,
     cos_inner: f32,
     cos_outer: f32,
-    intensity: Color,
+    intensity: LightColor,
     falloff: Falloff,
 }
 
@@ -98,11 +98,11 @@ impl Light for Spot {
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (position, axis) = self.anchor.at(cx.time);
         let (wi, irradiance) = self.falloff.towards(position, p)?;
-        let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
+        let weight = cx.basis.light(&self.intensity) * (irradiance * self.share(-wi.dot(axis)));
         (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
     }
     fn bound(&self) -> LightBound {
-        self.falloff.bound(&self.anchor, self.intensity)
+        self.falloff.bound(&self.anchor, self.intensity.color)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

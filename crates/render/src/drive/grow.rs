@@ -120,7 +120,7 @@ impl Job<'_> {
         let all = Mutex::new(vec![None; width as usize * height as usize]);
         crew::share_out(&rows, self.settings.threads, cancel, |y, row: &mut Vec<Option<[f32; 3]>>| {
             row.clear();
-            let (cx, mut out) = (self.cx(), Contribution::default());
+            let mut out = Contribution::default();
             for x in 0..width {
                 if cancel.load(Ordering::Relaxed) {
                     return;
@@ -131,7 +131,9 @@ impl Job<'_> {
                 row.push(
                     inside
                         .then(|| {
-                            self.integrator.sample(&cx, self.eye([px, py], 0).0, &mut out);
+                            let ray = self.eye([px, py], 0).0;
+                            let cx = self.cx(&ray.sampler);
+                            self.integrator.sample(&cx, ray, &mut out);
                             film_value(&cx, &out)
                         })
                         .flatten(),

@@ -24,7 +24,10 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use durer_core::{sampling::Sampler, spectrum::Basis};
+use durer_core::{
+    sampling::{Dim, Sampler},
+    spectrum::Carried,
+};
 
 use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
@@ -126,8 +129,10 @@ pub struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn cx(&self) -> SampleCx<'a> {
-        SampleCx { scene: self.scene, basis: Basis::Rgb }
+    /// The context of a sample of which this is the first sampler.
+    #[inline]
+    fn cx(&self, sampler: &Sampler) -> SampleCx<'a> {
+        SampleCx { scene: self.scene, basis: self.settings.carried.basis(|| sampler.d1(Dim::Lambda)) }
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
@@ -138,9 +143,11 @@ impl<'a> Job<'a> {
         (PathRay::eye(ray, sampler), weight)
     }
 
-    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it.
+    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
+    /// wavelengths are no colour that could be compared.
     fn adaptive(&self) -> Option<Adaptive> {
         match (self.settings.antialias, self.integrator.output()) {
+            _ if self.settings.carried == Carried::Wavelengths => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,
         }
@@ -211,7 +218,6 @@ impl<'a> Job<'a> {
     }
 
     fn tile(&self, pass: &Pass<'_>, tile: Tile, pixels: &mut [Pixel]) -> TileDone {
-        let cx = self.cx();
         let mut done = TileDone { counters: pass.gather.counters(), ..TileDone::default() };
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
@@ -222,7 +228,7 @@ impl<'a> Job<'a> {
                 }
                 for sample in pass.samples.clone() {
                     let (ray, weight) = self.eye([x, y], sample);
-                    match self.take(&cx, ray, &mut out, &mut done) {
+                    match self.take(ray, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
@@ -236,11 +242,11 @@ impl<'a> Job<'a> {
     /// Takes a sample and counts it.
     fn take(
         &self,
-        cx: &SampleCx<'_>,
         ray: PathRay,
         out: &mut Contribution,
         done: &mut TileDone,
     ) -> Option<[f32; 3]> {
+        let cx = &self.cx(&ray.sampler);
         match &mut done.counters {
             Some(counters) => self.integrator.count(cx, ray, out, counters),
             None => self.integrator.sample(cx, ray, out),

@@ -5,7 +5,7 @@ use durer_core::sampling::Dim;
 
 use super::{Job, adaptive, crew, film_value, lock, pass};
 use crate::{
-    Contribution, PathRay,
+    Contribution, PathRay, SampleCx,
     film::Tile,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
 };
@@ -59,8 +59,9 @@ impl Job<'_> {
                 .get(sample as usize)
                 .map(|&place| adaptive::eye(self, place)),
         };
-        let (cx, mut out) = (self.cx(), Contribution::default());
+        let mut out = Contribution::default();
         ray.and_then(|ray| {
+            let cx = self.cx(&ray.sampler);
             self.integrator.sample(&cx, ray, &mut out);
             film_value(&cx, &out)
         })
@@ -69,7 +70,7 @@ impl Job<'_> {
 
     /// Traces an eye ray through a place of the picture.
     fn watch(&self, ray: &PathRay, (film, weight): ([f32; 2], f32), detail: Detail) -> (RayTree, [f32; 3]) {
-        let cx = self.cx();
+        let cx = self.cx(&ray.sampler);
         let mut recorder = Recorder::new(&cx, detail);
         let mut out = Contribution::default();
         self.integrator.record(&cx, *ray, &mut out, &mut recorder);
@@ -85,6 +86,9 @@ impl Job<'_> {
             let moment = pass::moment(view, nesting, &ray.sampler);
             eye.random.extend(moment.map(|u| RandomNumbers::one(Dim::Time, u)));
             eye.random.extend(lens.map(|u| RandomNumbers::two(Dim::Lens, u.to_array())));
+            if cx.basis.wavelengths().is_some() {
+                eye.random.push(RandomNumbers::one(Dim::Lambda, ray.sampler.d1(Dim::Lambda)));
+            }
         }
         tree.eye = Some(TreeEye {
             film,
@@ -103,7 +107,7 @@ impl Job<'_> {
         if !node.is_traced() && node.limit.is_none() {
             return None;
         }
-        let cx = self.cx();
+        let cx = SampleCx { scene: self.scene, basis: tree.basis };
         let mut recorder = Recorder::new(&cx, Detail::default());
         if let Some(choice) = &node.chosen {
             recorder.chose(choice);
@@ -146,7 +150,7 @@ impl Job<'_> {
         let (mut sum, mut largest) = ([0.0; 3], 0.0f32);
         for sample in 0..samples {
             let (tree, _) = self.record(pixel, sample);
-            let killed = self.cx().basis.to_rgb(tree.killed());
+            let killed = tree.basis.under_white(tree.killed());
             sum.iter_mut().zip(killed).for_each(|(sum, v)| *sum += v);
             largest = largest.max(tree.max_radiance());
         }

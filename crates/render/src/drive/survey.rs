@@ -59,7 +59,7 @@ impl Job<'_> {
 
     fn taken(&self, sample: u32, start: Start, gather: Gather) -> Taken {
         let Start { ray, film, weight } = start;
-        let (view, cx, mut out) = (&self.scene.view, self.cx(), Contribution::default());
+        let (view, cx, mut out) = (&self.scene.view, self.cx(&ray.sampler), Contribution::default());
         let lens = pass::on_lens(view, self.settings.nesting, &ray.sampler);
         let mut counters = gather.counters();
         match &mut counters {
@@ -150,7 +150,6 @@ impl Job<'_> {
     fn quarters(&self, small: [u32; 2], size: [u32; 2]) -> Option<[f32; 3]> {
         let view = &self.scene.view;
         let full = [view.width, view.height];
-        let cx = self.cx();
         let mut out = Contribution::default();
         let mut found = Vec::new();
         for [dx, dy] in [[1, 1], [3, 1], [1, 3], [3, 3]] {
@@ -159,6 +158,7 @@ impl Job<'_> {
                 (place as u32).min(full[i] - 1)
             };
             let ray = self.eye([at(0, dx), at(1, dy)], 0).0;
+            let cx = self.cx(&ray.sampler);
             self.integrator.sample(&cx, ray, &mut out);
             found.extend(film_value(&cx, &out));
         }

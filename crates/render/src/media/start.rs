@@ -67,7 +67,7 @@ fn left_unentered(scene: &Scene, direction: u32) -> Vec<(u32, u32)> {
     for _ in 0..MOST_SURFACES {
         let Some(hit) = scene.closest(&cx, &ray, &mut NoProbe, ()) else { break };
         let (object, mut surface) = scene.surface(&ray, &hit);
-        let crossing = scene.cross((object, &mut surface), (-d, time, hit.t), &stack, |of, imbalance| {
+        let crossing = scene.cross(&cx.basis, (object, &mut surface), (-d, time, hit.t), &stack, |of, imbalance| {
             let medium = scene.medium_of(of).map(|id: Id<Medium>| id.index() as u32);
             if let (Some(medium), Imbalance::LeftUnentered) = (medium, imbalance) {
                 let before = left.iter().filter(|(m, _)| *m == medium).count();

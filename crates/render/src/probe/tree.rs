@@ -1,5 +1,5 @@
 //! The ray tree of one sample, and what can be told from it.
-use durer_core::spectrum::Spectrum;
+use durer_core::spectrum::{Basis, Spectrum};
 
 use super::TreeNode;
 
@@ -53,6 +53,8 @@ impl Default for Detail {
 pub struct RayTree {
     /// The nodes; ids are indices.
     pub nodes: Vec<TreeNode>,
+    /// What the lanes of their spectra mean.
+    pub basis: Basis,
     /// Where the eye ray comes from; `None` for trees that begin at another ray.
     pub eye: Option<TreeEye>,
     /// The node that an infinite or NaN value comes from, if there is one: the first whose own part or weight is, while

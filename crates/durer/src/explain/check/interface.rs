@@ -83,13 +83,14 @@ impl Checked<'_> {
         let medium = scene.media.of_material(self.object(hit).material)?;
         let own = scene.media.get(medium);
         let before = node.path.media;
-        let n1 = present(&scene.media, &before).0;
+        let basis = &self.tree.basis;
+        let n1 = present(&scene.media, basis, &before).0;
         let n2 = match own.priority {
-            None if hit.from_outside => n1 * f64::from(own.eta),
-            None => n1 / f64::from(own.eta),
+            None if hit.from_outside => n1 * f64::from(own.eta(basis)),
+            None => n1 / f64::from(own.eta(basis)),
             // What is wrong with the account is told of that.
             Some(_) if !hit.from_outside && !before.iter().any(|id| id == medium) => return None,
-            Some(_) => present(&scene.media, &shading.media?.after).0,
+            Some(_) => present(&scene.media, basis, &shading.media?.after).0,
         };
         let cos = unit(Vector3::from(hit.n_s)).dot(unit(node.d)).abs().min(1.0);
         let sin = unit(Vector3::from(hit.n_s)).cross(unit(node.d)).length();

@@ -109,7 +109,7 @@ impl Teller<'_> {
         }
         let media = &self.prepared.scene.media;
         let length = (hit.p.to_f64() - node.path.from.to_f64()).length();
-        let id = present(media, &node.path.media).1.filter(|&id| media.get(id).absorbs());
+        let id = present(media, &self.tree.basis, &node.path.media).1.filter(|&id| media.get(id).absorbs());
         let Some(id) = id else {
             return Some(format!(
                 "Whitted's attenuation by distance leaves {} of its light.",

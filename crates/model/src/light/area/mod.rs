@@ -25,7 +25,7 @@ use durer_core::{
         error::{gamma, offset_ray_origin},
     },
     sampling::{Dim, Sampler},
-    spectrum::{Basis, Spectrum},
+    spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -127,7 +127,8 @@ impl Area {
             None => {
                 let of = |&(share, p, n, piece): &(f64, DVec3, DVec3, usize)| {
                     let at = self.emitter.texture_at(f32::NEG_INFINITY, (p, n), piece);
-                    share as f32 * self.looks.color(&self.emission.glow, Basis::Rgb, &at).luminance()
+                    let radiance = self.looks.radiance(&self.emission.glow, &Basis::Rgb, &at);
+                    share as f32 * Color { rgb: Basis::Rgb.to_rgb(radiance) }.luminance()
                 };
                 self.emitter.spread().iter().map(of).sum()
             }
@@ -149,11 +150,11 @@ impl Area {
 
     /// The radiance where textures are looked up at `at`.
     fn radiance(&self, basis: Basis, at: impl FnOnce() -> TextureAt) -> Spectrum {
-        let color = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
-            Some(color) => color,
-            None => self.looks.color(&self.emission.glow, basis, &at()),
+        let radiance = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
+            Some(color) => basis.light(color),
+            None => self.looks.radiance(&self.emission.glow, &basis, &at()),
         };
-        basis.emission(color * self.factor)
+        radiance * self.factor
     }
 
     /// Whether the side on which direction `w` lies shines, where the normal is `n`.

@@ -16,7 +16,7 @@ use durer_core::{
     glam::DAffine3,
     math::{Normal3, Point3, Transform, Vector3},
     sampling::{Dim, Sampler},
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, Color, LightColor, Spectrum},
 };
 use durer_scene::{Args, Image, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -37,7 +37,7 @@ use super::{
 #[derive(Debug)]
 pub struct Infinite {
     /// Radiance, or factor on the picture.
-    radiance: Color,
+    radiance: LightColor,
     picture: Option<Box<Picture>>,
     /// In world space.
     portal: Option<Portal>,
@@ -126,7 +126,7 @@ impl Kind for Infinite {
         }
         let Some(image) = image else {
             // The placeholder of a missing picture.
-            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0))));
+            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0).into())));
         };
         if let Some(reason) = unfit(&image) {
             args.error("filename", format!("{}: {reason}", args.text("filename")));
@@ -154,7 +154,7 @@ impl Kind for Infinite {
             scale *= wanted / found;
         }
         let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
-        Some(Box::new(Self { picture, ..even(Color::gray(scale)) }))
+        Some(Box::new(Self { picture, ..even(Color::gray(scale).into()) }))
     }
 }
 
@@ -178,7 +178,7 @@ impl Infinite {
         let panorama = Panorama::new(image, layout);
         let pyramid = Pyramid::of(&panorama);
         let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
-        Self { radiance: Color::gray(scale), picture, portal: None, view: None }
+        Self { radiance: Color::gray(scale).into(), picture, portal: None, view: None }
     }
     /// Mean luminance over the sphere.
     fn mean(&self) -> f32 {
@@ -187,9 +187,9 @@ impl Infinite {
     }
     /// What `look` says of the picture in a direction of render space; the constant radiance if there is none.
     fn emitted(&self, basis: Basis, d: Vector3, look: impl Fn(&Picture, Vector3) -> [f32; 3]) -> Spectrum {
-        let Some(picture) = &self.picture else { return basis.emission(self.radiance) };
+        let Some(picture) = &self.picture else { return basis.light(&self.radiance) };
         let d = picture.render_from_light.inverse().vector(d).normalize();
-        basis.emission(Color { rgb: look(picture, d) } * self.radiance)
+        basis.tinted(&self.radiance, Color { rgb: look(picture, d) })
     }
 }
 
@@ -257,7 +257,7 @@ impl Light for Infinite {
     /// Blurring makes nothing brighter.
     fn bound(&self) -> LightBound {
         let of_picture = self.picture.as_ref().map_or(1.0, |picture| picture.panorama.largest());
-        let most = largest(self.radiance) * of_picture;
+        let most = largest(self.radiance.color) * of_picture;
         LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {

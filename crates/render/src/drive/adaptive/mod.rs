@@ -137,7 +137,7 @@ fn value(
     done: &mut TileDone,
     bad: BadSample,
 ) -> [f32; 3] {
-    let value = job.take(&job.cx(), eye(job, place), out, done).unwrap_or_default();
+    let value = job.take(eye(job, place), out, done).unwrap_or_default();
     if value.iter().all(|v| v.is_finite()) {
         return value;
     }
