@@ -351,7 +351,9 @@ impl SampleOptions {
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
         say("shadows", shadows.map(|v| v.word().to_owned()));
-        words.extend(spectral.map(|v| if v == Switch::On { "--spectral" } else { "--spectral=off" }.to_owned()));
+        words.extend(
+            spectral.map(|v| if v == Switch::On { "--spectral" } else { "--spectral=off" }.to_owned()),
+        );
         let mut say = |name: &str, value: Option<String>| {
             words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
         };

@@ -66,9 +66,7 @@ impl Basis {
     pub fn emission(&self, c: Color) -> Spectrum {
         match self {
             Self::Rgb => rgb_lanes(c),
-            Self::Spectral(wavelengths) => {
-                smooth(wavelengths, c, Fit::Loose) * self.white()
-            }
+            Self::Spectral(wavelengths) => smooth(wavelengths, c, Fit::Loose) * self.white(),
         }
     }
     /// Lanes of white light of luminance 1.

@@ -121,8 +121,12 @@ impl Subject<'_> {
             Output::Radiance => None,
         };
         let is_adaptive = settings.antialias != Antialias::Supersample;
-        let nodes: Vec<Node> =
-            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, &recorded.basis, id, n)).collect();
+        let nodes: Vec<Node> = recorded
+            .nodes
+            .iter()
+            .enumerate()
+            .map(|(id, n)| node(self.prepared, &recorded.basis, id, n))
+            .collect();
         let eye = recorded.eye.as_ref();
         let mut tree = Tree {
             version: VERSION,

@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 
 use durer_core::{
     math::{
-        Frame, Normal3, Point3, Vector3,
+        Frame, Normal3, Point2, Point3, Vector3,
         float::{cos, sin, sqr},
     },
     sampling::{Dim, Sampler},
@@ -13,7 +13,10 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Light, LightBound, LightCx, LightSample, Track, axis, largest, scaled, track::Anchor};
+use super::{
+    Emitted, Extent, Leaving, Light, LightBound, LightCx, LightSample, Source, Track, axis, largest, scaled,
+    track::Anchor,
+};
 
 /// A distant light.
 #[derive(Debug)]
@@ -37,10 +40,18 @@ impl Disk {
     fn new(irradiance: &LightColor, degrees: f32) -> Option<Self> {
         let half = 0.5 * degrees.to_radians();
         let opening = 2.0 * sqr(sin(0.5 * half));
-        (opening > 0.0).then(|| Self { radiance: irradiance.clone() * (1.0 / (PI * sqr(sin(half)))), opening })
+        (opening > 0.0)
+            .then(|| Self { radiance: irradiance.clone() * (1.0 / (PI * sqr(sin(half)))), opening })
     }
     fn density(&self) -> f32 {
         1.0 / (TAU * self.opening)
+    }
+    /// One of its directions; `u` in `[0, 1)²`.
+    fn direction(&self, middle: Vector3, u: Point2) -> Vector3 {
+        let down = u.x * self.opening;
+        let (r, azimuth) = ((down * (2.0 - down)).sqrt(), TAU * u.y);
+        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - down);
+        Frame::from_z(Normal3::from(middle)).to_world(local).normalize()
     }
     /// Whether unit direction `d` is in it whose middle is at `middle`.
     fn holds(&self, middle: Vector3, d: Vector3) -> bool {
@@ -110,15 +121,38 @@ impl Light for Distant {
                 point: None,
                 weight,
                 pdf: None,
+                on: None,
             });
         };
         let u = sampler.d2(Dim::Light);
-        let down = u.x * disk.opening;
-        let (r, azimuth) = ((down * (2.0 - down)).sqrt(), TAU * u.y);
-        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - down);
-        let wi = Frame::from_z(Normal3::from(middle)).to_world(local).normalize();
+        let wi = disk.direction(middle, u);
         let weight = cx.basis.light(&disk.radiance) / disk.density();
-        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(disk.density()) })
+        (!weight.is_black()).then_some(LightSample {
+            wi,
+            point: None,
+            weight,
+            pdf: Some(disk.density()),
+            on: None,
+        })
+    }
+    fn emit(&self, cx: &LightCx, within: &Extent, [place, u]: [Point2; 2]) -> Option<Emitted> {
+        let middle = -self.anchor.at(cx.time).1;
+        let (d, source, light, pdf_direction) = match &self.disk {
+            None => (-middle, Source::Parallel, cx.basis.light(&self.irradiance), 1.0),
+            Some(disk) => {
+                let light = cx.basis.light(&disk.radiance);
+                (-disk.direction(middle, u), Source::Far, light, disk.density())
+            }
+        };
+        let (p, pdf_place) = within.before(d, place);
+        (!light.is_black()).then_some(Emitted { p, d, source, light, pdf_place, pdf_direction })
+    }
+    fn emission_pdf(&self, cx: &LightCx, within: &Extent, ray: &Leaving) -> [f32; 2] {
+        let direction = if self.disk.is_some() { self.pdf_escaped(cx, ray.p, -ray.d) } else { 1.0 };
+        [within.density_at(ray.p, ray.d), direction]
+    }
+    fn is_emitter(&self) -> bool {
+        true
     }
     fn is_disk(&self) -> bool {
         self.disk.is_some()

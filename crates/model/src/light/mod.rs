@@ -6,11 +6,13 @@ mod ambient;
 mod area;
 mod beam;
 mod distant;
+mod emitted;
 mod falloff;
 mod goniometric;
 mod gradient_sky;
 mod ies;
 pub(crate) mod infinite;
+mod pattern_rays;
 mod picture;
 mod point;
 mod projection;
@@ -42,6 +44,7 @@ pub use self::{
     ambient::Ambient,
     area::{Area, Emission, Looks, Materials, Orientation, Textures},
     distant::Distant,
+    emitted::{Emitted, Extent, Leaving, Source},
     goniometric::Goniometric,
     gradient_sky::GradientSky,
     ies::Ies,
@@ -69,6 +72,8 @@ pub struct LightSample {
     pub weight: Spectrum,
     /// Density of sampling `wi`, 1/sr; `None` for lights without extent, which no scattered ray can meet.
     pub pdf: Option<f32>,
+    /// The place on a surface that shines.
+    pub on: Option<LightHit>,
 }
 
 /// What lights need to know of a ray.
@@ -133,6 +138,22 @@ pub trait Light: Debug + Send + Sync {
     fn emitted(&self, basis: Basis, surface: &Surface, wo: Vector3) -> Spectrum {
         let _ = (basis, surface, wo);
         Spectrum::BLACK
+    }
+    /// A particle that leaves it, of those that may meet something in `within`: `u` chooses place and direction. `None` if
+    /// that point is black, or the light does not send any.
+    fn emit(&self, cx: &LightCx, within: &Extent, u: [Point2; 2]) -> Option<Emitted> {
+        let _ = (cx, within, u);
+        None
+    }
+    /// Densities with which [`Light::emit`] gives the place (1/m², 1 for points) and the direction (1/sr, 1 for parallel
+    /// light) of a ray that leaves it; zeros if it gives none.
+    fn emission_pdf(&self, cx: &LightCx, within: &Extent, ray: &Leaving) -> [f32; 2] {
+        let _ = (cx, within, ray);
+        [0.0; 2]
+    }
+    /// Whether [`Light::emit`] ever gives something.
+    fn is_emitter(&self) -> bool {
+        false
     }
     /// The most that it can send.
     fn bound(&self) -> LightBound;

@@ -154,7 +154,8 @@ impl Material for Classic {
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
         let most = |input: Option<&ColorInput>| input.map_or(0.0, |input| largest_share(cx, input));
         let diffuse = largest_share(cx, &self.diffuse);
-        let (ambient, specular) = (most(self.ambient.as_ref().or(Some(&self.diffuse))), most(self.specular.as_ref()));
+        let (ambient, specular) =
+            (most(self.ambient.as_ref().or(Some(&self.diffuse))), most(self.specular.as_ref()));
         let (reflection, transmission) = (most(self.reflection.as_ref()), most(self.transmission.as_ref()));
         let followed = if self.fresnel { reflection.max(transmission) } else { reflection + transmission };
         let blurs = [(reflection, self.gloss), (transmission, self.translucency)];

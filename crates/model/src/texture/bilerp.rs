@@ -1,5 +1,8 @@
 //! Four corners, interpolated: `(1 - u)(1 - v) v00 + u (1 - v) v10 + (1 - u) v v01 + u v v11`, and on beyond the unit square.
-use durer_core::{glam::DAffine3, spectrum::{Color, Spectrum}};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{

@@ -6,7 +6,10 @@
 //! Filtered, the share of `tex2` is `1/2 - 1/2 s(u) s(v)`: the board is a product of square waves, each of which is
 //! averaged under a tent of half width `r = 3/2 max(|du/dx|, |du/dy|)`, as in pbrt-v4. With the second integral `S` of the
 //! wave that is `(S(u + r) - 2 S(u) + S(u - r)) / r²`.
-use durer_core::{glam::DAffine3, spectrum::{Color, Spectrum}};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{

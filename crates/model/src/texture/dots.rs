@@ -2,7 +2,10 @@
 //!
 //! Squares have their middles at whole coordinates. Noise at `(i + 1/2, j + 1/2)` says whether square (i, j) has a dot, noise
 //! further on how far its centre is shifted (Physically Based Rendering, 3rd edition, section 10.5.2). Not filtered.
-use durer_core::{glam::DAffine3, spectrum::{Color, Spectrum}};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{

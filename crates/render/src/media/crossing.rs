@@ -127,9 +127,8 @@ impl Scene {
             true => Boundary::Passed,
             false => Boundary::Between(far.eta / near.eta),
         };
-        let disperses = |medium: Option<Id<Medium>>| {
-            medium.is_some_and(|id| self.media.get(id).dispersion.is_some())
-        };
+        let disperses =
+            |medium: Option<Id<Medium>>| medium.is_some_and(|id| self.media.get(id).dispersion.is_some());
         crossing.disperses = *basis != Basis::Rgb && (disperses(near.medium) || disperses(far.medium));
         crossing
     }

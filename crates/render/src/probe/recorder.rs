@@ -28,7 +28,14 @@ pub struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// A recorder that has seen nothing.
     pub fn new(cx: &SampleCx<'a>, detail: Detail) -> Self {
-        Self { cx: *cx, detail, tree: RayTree { basis: cx.basis, ..RayTree::default() }, chosen: None, begun: Vec::new(), walks: Vec::new() }
+        Self {
+            cx: *cx,
+            detail,
+            tree: RayTree { basis: cx.basis, ..RayTree::default() },
+            chosen: None,
+            begun: Vec::new(),
+            walks: Vec::new(),
+        }
     }
 
     /// How the ray came about that is traced next.

@@ -1,7 +1,8 @@
 //! Colour parameters, and spectra: files of wavelength and value (`.spd`), lists, names. What is measured keeps its curve
 //! beside the colour that stands for it where rays carry red, green and blue.
 use durer_core::spectrum::{
-    Color, Curve, HELIUM_D, LightColor, Named, Sampled, curve, named, named_curve, named_light, spectrum_names,
+    Color, Curve, HELIUM_D, LightColor, Named, Sampled, curve, named, named_curve, named_light,
+    spectrum_names,
 };
 
 use super::{Args, ParamDefault, args::range_text};
@@ -139,7 +140,8 @@ impl Args<'_> {
         };
         if let Some(spec) = self.spec(name) {
             let (least, most) = spec.range;
-            let at = |nm: &str, value: f32| format!("\"{name}\" is {value} {nm}, expected {}", range_text(spec));
+            let at =
+                |nm: &str, value: f32| format!("\"{name}\" is {value} {nm}, expected {}", range_text(spec));
             let is_outside = |value: f32| !(value >= least && value <= most);
             if is_outside(value) {
                 self.error(name, at("at 587.6 nm", value));

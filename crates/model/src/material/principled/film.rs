@@ -27,7 +27,8 @@ pub(super) fn reflected(
                 first + sqr(ratio) * response(2.0 * path, 2.0 * shift)[i]
             };
             let [r, g, b] = basis.to_rgb(f0);
-            let lane = |i: usize, f0: f32| of_lane(cos_outside, (eta, thickness), f0, |p, s, r| waves(i, p, s, r));
+            let lane =
+                |i: usize, f0: f32| of_lane(cos_outside, (eta, thickness), f0, |p, s, r| waves(i, p, s, r));
             basis.reflectance(Color::new(lane(0, r), lane(1, g), lane(2, b)))
         }
         Basis::Spectral(wavelengths) => wavelengths.map(f0, |nm, f0| {
@@ -122,7 +123,10 @@ mod tests {
     #[test]
     fn wavelengths_and_colours_agree() {
         for (cos, eta, thickness) in [(1.0, 1.33, 250.0), (0.7, 1.5, 400.0), (0.9, 1.33, 550.0)] {
-            let (a, b) = (rgb(cos, eta, thickness, Color::gray(0.04)), spectral(cos, eta, thickness, Color::gray(0.04)));
+            let (a, b) = (
+                rgb(cos, eta, thickness, Color::gray(0.04)),
+                spectral(cos, eta, thickness, Color::gray(0.04)),
+            );
             // The colours' Gaussians are a fit, and they know two orders.
             assert!((0..3).all(|i| (a.rgb[i] - b.rgb[i]).abs() < 0.03), "{thickness} nm: {a:?} {b:?}");
         }
