@@ -7,7 +7,7 @@ use std::{
 use durer::{
     Job, Output,
     drive::{Growing, Sparse},
-    film::{Developed, Pixel, develop, develop_data},
+    film::{Developed, Pixel, develop, develop_data, develop_survey},
     image::{Packing, encode_png},
 };
 
@@ -61,7 +61,7 @@ pub(crate) struct Shown {
     pub(crate) png: Vec<u8>,
     /// Nearest and farthest depth.
     pub(crate) range: Option<[f32; 2]>,
-    /// Tests of a white pixel.
+    /// Tests, rays or noise of a white pixel.
     pub(crate) white: Option<f32>,
 }
 
@@ -160,6 +160,10 @@ impl Take {
             Output::Data(show) => {
                 let data = develop_data(show, width, height, &values);
                 (data.picture, data.depth.map(|d| [d.near, d.far]), data.white_tests)
+            }
+            Output::Survey(survey) => {
+                let (picture, white) = develop_survey(survey, width, height, &values);
+                (picture, None, Some(white))
             }
             Output::Radiance => {
                 let rgb: Vec<[f32; 3]> = values.into_iter().map(Option::unwrap_or_default).collect();

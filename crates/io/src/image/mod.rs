@@ -80,6 +80,14 @@ pub(crate) fn format_name(head: &[u8]) -> Option<&'static str> {
     SIGNATURES.iter().find(starts).map(|s| s.name)
 }
 
+/// What the names of image files end with that hold such bytes.
+pub(crate) fn suffix_of(bytes: &[u8]) -> Option<&'static str> {
+    let Some(name) = format_name(bytes) else {
+        return raster::is_tga_by_footer(bytes).then_some(".tga");
+    };
+    SUFFIXES.iter().find(|(_, format)| name.contains(format)).map(|(suffix, _)| *suffix)
+}
+
 /// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors

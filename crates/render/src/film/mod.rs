@@ -8,7 +8,7 @@ mod develop;
 mod tile;
 mod tonemap;
 
-pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data};
+pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data, develop_survey};
 pub use tile::Tile;
 pub use tonemap::ToneMap;
 

@@ -8,6 +8,7 @@ mod cast;
 mod distributed;
 mod path;
 mod shading;
+mod survey;
 mod walk;
 mod whitted;
 
@@ -23,6 +24,7 @@ pub use ambient_occlusion::AmbientOcclusion;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
 pub use path::{Direct, Path};
+pub use survey::{Survey, Surveyed};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -33,6 +35,8 @@ pub enum Output {
     Radiance,
     /// Numbers for the eye: see [`Show`].
     Data(Show),
+    /// What samples of light are like: see [`Survey`].
+    Survey(Survey),
 }
 
 /// The eye rays of a pixel.
@@ -84,7 +88,7 @@ pub trait Transport: Send + Sync {
     );
 }
 
-/// Light transport as the driver holds it; nobody implements it by hand.
+/// Light transport as the driver holds it; nobody implements it by hand, but for [`Surveyed`].
 pub trait Integrator: Send + Sync {
     /// What the samples mean.
     fn output(&self) -> Output;
