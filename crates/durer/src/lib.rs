@@ -23,6 +23,7 @@ mod prepare;
 mod studio;
 mod transport;
 pub mod tree;
+mod written;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
@@ -46,6 +47,7 @@ pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
 pub use studio::{Studio, Wanted};
 pub use transport::with_usual_depth;
+pub use written::ToWrite;
 
 use std::path::Path;
 

@@ -1,14 +1,10 @@
 //! Files for the viewer to keep: the picture, and the scene as he changed it.
 use durer::{
-    Prepared,
-    export::{
-        Files,
-        pbrt::{Film, Plan, Written, write},
-    },
+    Prepared, ToWrite,
+    export::{Files, pbrt::Written},
     film::ToneMap,
     image::PictureFormat,
     picture::{Look, Picture},
-    scene::Data,
 };
 
 use crate::{pack::packed, settings::Settings, stage::Opened, take::Take};
@@ -106,49 +102,15 @@ fn pbrt(
     settings: &Settings,
     opened: &Opened,
 ) -> Result<Written, String> {
-    let Settings { desc, options, camera, .. } = settings;
-    let mut desc = desc.clone();
-    let taken = desc.cameras.get_mut(*camera).ok_or("there is no camera")?;
-    let scales = options.lens.focus.is_none();
-    *taken = options.lens.given_to(taken.clone());
-    let view = &opened.prepared.scene.view;
-    let film = Film {
-        width: options.width.unwrap_or(view.width),
-        height: options.height.unwrap_or(view.height),
-        samples: options.samples.or(desc.film.samples).unwrap_or(opened.prepared.settings.samples),
-        sampler: options.sampler.unwrap_or_default(),
-    };
-    if let Some(param) = taken.node.params.get("focuspixel").filter(|_| scales) {
-        // It speaks of the picture that the scene asked for.
-        let by = |now: u32, asked: Option<u32>| asked.map_or(1.0, |asked| now as f32 / asked.max(1) as f32);
-        let by = [by(film.width, desc.film.width), by(film.height, desc.film.height)];
-        let mut param = param.clone();
-        if let Data::Floats(pixel) = &mut param.data {
-            pixel.iter_mut().zip(by).for_each(|(at, by)| *at *= by);
-        }
-        taken.node.params.set(param);
-    }
     let mut remarks =
         vec![format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION"))];
     if files == Files::Embedded {
         remarks.push("Paths of files start where the original lies: this file belongs there.".to_owned());
     }
-    let mut words = String::new();
-    if options.seed != 0 {
-        words += &format!(" --seed {}", options.seed);
-    }
-    if options.time != 0.0 {
-        words += &format!(" --time-at {}", options.time);
-    }
-    if let Some(shutter) = options.shutter {
-        words += &format!(" --shutter {},{}", shutter.min, shutter.max);
-    }
-    if !words.is_empty() {
-        remarks.push(format!("What scene files do not say: render it with{words}."));
-    }
-    let folder = format!("{stem}-files");
-    let plan = Plan { film, camera: *camera, files, folder: &folder, remarks: &remarks };
-    write(&desc, &opened.studio.imported.assets, plan).map_err(|refused| {
+    let Settings { desc, options, camera, .. } = settings;
+    let (assets, prepared) = (&opened.studio.imported.assets, &*opened.prepared);
+    let whole = ToWrite { desc, assets, options, camera: *camera, prepared };
+    whole.pbrt(files, &format!("{stem}-files"), &remarks).map_err(|refused| {
         let list: String = refused.iter().map(|what| format!("\n  {what}")).collect();
         format!("this scene cannot be written as .pbrt, as the language has no words for it:{list}")
     })
