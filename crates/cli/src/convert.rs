@@ -6,14 +6,14 @@ use std::{
 
 use anyhow::{Context, bail};
 use durer::{
-    Options, Studio, ToWrite,
+    Glb, Options, Studio, ToWrite,
     export::{Beside, Content, Files},
     image::replace_file,
     scene::nearest_word,
 };
 
 use crate::{
-    exit::{Exit, WrongUsage, emit, tell},
+    exit::{Exit, WrongUsage, emit, harmless, tell},
     load::{failure, import},
     options::{SampleOptions, TalkOptions},
     output::check_writable,
@@ -167,8 +167,14 @@ impl Args {
         emit(&format!("{}\n{files}", out.display()))
     }
 
-    fn glb(&self, _whole: &ToWrite<'_>, _out: &Path) -> anyhow::Result<()> {
-        bail!("not yet")
+    fn glb(&self, whole: &ToWrite<'_>, out: &Path) -> anyhow::Result<()> {
+        let Glb { bytes, warnings } =
+            whole.glb().map_err(|why| anyhow::anyhow!("{}: {why}", out.display()))?;
+        if !self.talk.quiet {
+            warnings.iter().for_each(|warning| tell(&format!("warning: {}", harmless(warning))));
+        }
+        replace_file(out, &bytes)?;
+        emit(&format!("{}\n", out.display()))
     }
 }
 

@@ -17,6 +17,7 @@ pub mod builtin;
 pub mod cost;
 mod environment;
 pub mod explain;
+mod glb;
 mod options;
 pub mod picture;
 mod prepare;
@@ -43,6 +44,7 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 
+pub use glb::Glb;
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
 pub use studio::{Studio, Wanted};

@@ -15,7 +15,7 @@ use durer_scene::{AssetError, Image, Limits};
 
 pub use exr::{ExrPicture, ExrValue, NamedChannel, encode_exr, read_exr_channels, write_exr};
 pub use output::{PictureFormat, WRITERS, WriteError, Writer, replace_file, writer_for};
-pub use png::{Packing, encode_png, write_png};
+pub use png::{Packing, encode_png, encode_png_rgba, write_png};
 
 use source::Source;
 
