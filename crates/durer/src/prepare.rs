@@ -318,7 +318,7 @@ fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mu
             1
         }
         Output::Data(_) => asked.unwrap_or(1),
-        Output::Radiance => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
+        Output::Radiance | Output::Survey(_) => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
     }
 }
 

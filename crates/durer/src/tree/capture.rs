@@ -118,7 +118,7 @@ impl Subject<'_> {
         let (view, settings) = (&self.prepared.scene.view, &self.prepared.settings);
         let data = match self.prepared.integrator.output() {
             Output::Data(show) => Some(show.word().to_owned()),
-            Output::Radiance => None,
+            Output::Radiance | Output::Survey(_) => None,
         };
         let is_adaptive = settings.antialias != Antialias::Supersample;
         let nodes: Vec<Node> = recorded

@@ -167,7 +167,7 @@ impl Job<'_> {
             Output::Radiance => {
                 (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n))
             }
-            Output::Data(_) => found.first().copied(),
+            Output::Data(_) | Output::Survey(_) => found.first().copied(),
         }
     }
 }

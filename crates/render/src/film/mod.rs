@@ -9,7 +9,7 @@ mod splats;
 mod tile;
 mod tonemap;
 
-pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data};
+pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data, develop_survey};
 pub use splats::Splat;
 pub use tile::Tile;
 pub use tonemap::ToneMap;

@@ -10,6 +10,7 @@ mod distributed;
 mod light_tracing;
 mod path;
 mod shading;
+mod survey;
 mod vertices;
 mod walk;
 mod whitted;
@@ -28,6 +29,7 @@ pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
 pub use light_tracing::LightTracing;
 pub use path::{Direct, Path};
+pub use survey::{Survey, Surveyed};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -38,6 +40,8 @@ pub enum Output {
     Radiance,
     /// Numbers for the eye: see [`Show`].
     Data(Show),
+    /// What samples of light are like: see [`Survey`].
+    Survey(Survey),
 }
 
 /// The eye rays of a pixel.
@@ -105,7 +109,7 @@ pub trait Transport: Send + Sync {
     );
 }
 
-/// Light transport as the driver holds it; nobody implements it by hand.
+/// Light transport as the driver holds it; nobody implements it by hand, but for [`Surveyed`].
 pub trait Integrator: Send + Sync {
     /// What the samples mean.
     fn output(&self) -> Output;
