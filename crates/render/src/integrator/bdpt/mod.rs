@@ -65,6 +65,9 @@ impl Kind for Bidirectional {
                 ParamDefault::Bool(true),
                 "What one strategy finds counts by its share among all; else as if it were the only one.",
             ),
+            OF_PBRT[0],
+            OF_PBRT[1],
+            OF_PBRT[2],
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -72,9 +75,30 @@ impl Kind for Bidirectional {
         let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
         let roulette_depth = args.int("roulettedepth") as u32;
         let ways = ways(args)?;
+        for ParamSpec { name, .. } in OF_PBRT {
+            if args.bool(name) {
+                args.warning(
+                    name,
+                    format!("\"{name}\" has no effect; \"strategy\" shows what one strategy finds"),
+                );
+            }
+        }
         Some(Box::new(Self { rules, light_sampler, roulette_depth, ways }))
     }
 }
+
+/// Parameters that pbrt-v4 takes.
+const OF_PBRT: [ParamSpec; 3] = {
+    const fn of(name: &'static str) -> ParamSpec {
+        ParamSpec::new(
+            name,
+            ParamType::Bool,
+            ParamDefault::Bool(false),
+            "Taken as pbrt-v4 takes it; without effect.",
+        )
+    }
+    [of("regularize"), of("visualizestrategies"), of("visualizeweights")]
+};
 
 /// The parameters `strategy` and `weighted`.
 fn ways(args: &mut Args<'_>) -> Option<Ways> {
