@@ -18,7 +18,10 @@ use super::{
     vertices::Stamina,
     walk::{Rules, Walk},
 };
-use crate::{Contribution, LightSampler, PathRay, SampleCx, probe::Probe};
+use crate::{
+    Contribution, LightSampler, PathRay, SampleCx,
+    probe::{Probe, RayKind, TreeNode},
+};
 use eye::EyeWalk;
 
 /// Which ways to find a path count, and how much.
@@ -156,14 +159,15 @@ impl Transport for Bidirectional {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let (Start::Eye(ray) | Start::Again(&crate::probe::TreeNode { path: ray, .. })) = start;
+        let (Start::Eye(ray) | Start::Again(&TreeNode { path: ray, .. })) = start;
         let ray = PathRay { media: cx.scene.start, ..ray };
         let mut walk = Walk::new(&self.rules, cx, probe);
         let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
-        let particle = walk.particle(&ray, stamina, parent);
+        let id = walk.probe.ray(parent, &ray, RayKind::Eye);
+        let particle = walk.particle(&ray, stamina, id);
         let mut eye = EyeWalk { own: self, walk, particle: particle.as_ref(), vertices: Vec::new() };
-        eye.splat(parent, out);
-        eye.trace(ray, parent, out);
+        eye.splat(id, out);
+        eye.trace(ray, id, out);
         out.rays = eye.walk.rays;
         out.imbalances = eye.walk.imbalances;
     }
