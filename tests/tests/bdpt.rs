@@ -139,11 +139,18 @@ fn e1_a_glowing_sphere_gives_a_geometric_series() {
     }
 }
 
+/// A box that glows within: from its walls none of them is hidden. (In a sphere, of which points lie outside by rounding,
+/// vertices ask for no light of their own sphere: other ways stand for that.)
+const BOX_FURNACE: &str = "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n\
+    AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n\
+    Shape \"trianglemesh\" \"point3 P\" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1]\n\
+    \"integer indices\" [0 1 2  0 2 3  4 6 5  4 7 6  0 5 1  0 4 5  3 2 6  3 6 7  0 3 7  0 7 4  1 5 6  1 6 2]";
+
 fn of_strategy(s: usize, t: usize, weighted: bool, samples: u32) -> f64 {
     let integrator = format!(
         "\"bdpt\" \"integer maxdepth\" 8 \"integer roulettedepth\" 20 \"string strategy\" \"{s},{t}\" \"bool weighted\" {weighted}"
     );
-    total(&means(&picture(WITHIN, &integrator, FURNACE, samples)))
+    total(&means(&picture(WITHIN, &integrator, BOX_FURNACE, samples)))
 }
 
 /// Each way to find a path, as if it were the only one, finds all light of as many bounces: `a^k`.
@@ -153,9 +160,9 @@ fn each_strategy_alone_finds_all_light_of_its_bounces() {
         for s in 0..=k + 1 {
             let t = k + 2 - s;
             let expected = 0.5f64.powi(k as i32);
-            // Edges may be short: their squared inverse has a long tail.
-            let slack = if s >= 2 && t >= 2 { 0.06 } else { 0.015 };
-            let found = of_strategy(s, t, false, 1024);
+            // Edges may be short, those to the camera too: their squared inverse has a long tail.
+            let slack = if s >= 2 { 0.06 } else { 0.02 };
+            let found = of_strategy(s, t, false, 384);
             assert!((found / expected - 1.0).abs() < slack, "{s},{t}: {found}, expected {expected}");
         }
     }
@@ -164,9 +171,9 @@ fn each_strategy_alone_finds_all_light_of_its_bounces() {
 #[test]
 fn shares_of_the_strategies_sum_to_the_whole() {
     for k in 1..4usize {
-        let sum: f64 = (0..=k + 1).map(|s| of_strategy(s, k + 2 - s, true, 256)).sum();
+        let sum: f64 = (0..=k + 1).map(|s| of_strategy(s, k + 2 - s, true, 128)).sum();
         let expected = 0.5f64.powi(k as i32);
-        assert!((sum / expected - 1.0).abs() < 0.015, "{k} bounces: {sum}, expected {expected}");
+        assert!((sum / expected - 1.0).abs() < 0.02, "{k} bounces: {sum}, expected {expected}");
     }
 }
 
@@ -192,16 +199,5 @@ fn strategies_that_are_none_are_refused() {
         let mut imported = durer_tests::import(&text);
         assert!(durer::prepare(&mut imported, &Options::default()).is_none());
         assert!(imported.diagnostics.iter().any(|d| d.message.contains(said)), "{word}");
-    }
-}
-
-#[test]
-fn zz() {
-    for w in ["true", "false"] {
-        let integrator =
-            format!("\"bdpt\" \"integer maxdepth\" 1 \"string strategy\" \"1,2\" \"bool weighted\" {w}");
-        let p = picture(WITHIN, &integrator, FURNACE, 16);
-        let m = means(&p);
-        eprintln!("{:?}", m.iter().map(|m| (m[1] * 100.0).round()).collect::<Vec<_>>());
     }
 }

@@ -60,12 +60,13 @@ impl Transport for LightTracing {
             Start::Eye(ray) => (PathRay { media: cx.scene.start, ..ray }, RayKind::Eye, true),
             Start::Again(node) => (node.path, node.kind, false),
         };
-        out.value = Value::Radiance(seen(&mut walk, ray, kind, parent));
+        let id = walk.probe.ray(parent, &ray, kind);
+        out.value = Value::Radiance(seen(&mut walk, ray, id));
         if is_eye && cx.scene.view.is_connectible() {
             let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
-            if let Some(particle) = walk.particle(&ray, stamina, parent) {
+            if let Some(particle) = walk.particle(&ray, stamina, id) {
                 for index in 0..particle.vertices.len() {
-                    let sighting = walk.sighting(&particle, index, parent);
+                    let sighting = walk.sighting(&particle, index, id);
                     out.splats.extend(sighting.map(|sighting| sighting.splat));
                 }
             }
@@ -76,8 +77,7 @@ impl Transport for LightTracing {
 }
 
 /// What an eye ray sees of lights themselves.
-fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, kind: RayKind, parent: P::Id) -> Spectrum {
-    let id = walk.probe.ray(parent, &ray, kind);
+fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, id: P::Id) -> Spectrum {
     if let Some(reason) = walk.reason_to_stop(&ray) {
         walk.probe.stop(id, reason, ray.throughput);
         walk.probe.result(id, Spectrum::BLACK);
@@ -114,7 +114,8 @@ fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, kind: RayKind, paren
             (emission, passed)
         }
     };
-    let radiance = emission + weight * seen(walk, ray, RayKind::Passing, id);
+    let next = walk.probe.ray(id, &ray, RayKind::Passing);
+    let radiance = emission + weight * seen(walk, ray, next);
     walk.probe.result(id, radiance);
     radiance
 }

@@ -8,14 +8,14 @@ use durer_model::{
 use super::{
     super::{
         shading::LIGHT_BRANCH,
-        vertices::{End, Flight, Particle, SCATTER_BRANCH, Vertex, kept, scattered_on, straight_on},
-        walk::Walk,
+        vertices::{End, Flight, Particle, SCATTER_BRANCH, Vertex, chosen, kept, scattered_on, straight_on},
+        walk::{Parts, Walk},
     },
     Bidirectional,
 };
 use crate::{
     Contribution, PathRay, Value,
-    probe::{Probe, RayKind, StopReason},
+    probe::{Choice, ChosenBy, Limit, Probe, RandomNumbers, RayKind, StopReason},
 };
 
 /// A ray of the eye's walk.
@@ -50,18 +50,21 @@ impl Step {
 
 impl<P: Probe> EyeWalk<'_, P> {
     /// Follows an eye ray; radiance is summed from the far end, as the recorder folds it.
-    pub(super) fn trace(&mut self, ray: PathRay, mut parent: P::Id, out: &mut Contribution) {
+    pub(super) fn trace(&mut self, ray: PathRay, first: P::Id, out: &mut Contribution) {
         let mut links: Vec<Link<P::Id>> = Vec::new();
         let mut flight = Flight::Camera;
         let mut next = Some((ray, RayKind::Eye));
         while let Some((ray, kind)) = next {
-            let id = self.walk.probe.ray(parent, &ray, kind);
-            if let Some(link) = links.last_mut() {
-                link.weight = ray.weight;
-            }
+            let id = match links.last_mut() {
+                None => first,
+                Some(link) => {
+                    link.weight = ray.weight;
+                    self.walk.probe.ray(link.id, &ray, kind)
+                }
+            };
             let step = self.step(ray, &mut flight, id);
             links.push(Link { id, radiance: step.radiance, weight: Spectrum::BLACK });
-            (parent, next) = (id, step.next);
+            next = step.next;
         }
         let mut radiance = Spectrum::BLACK;
         for (place, link) in links.iter().enumerate().rev() {
@@ -100,7 +103,12 @@ impl<P: Probe> EyeWalk<'_, P> {
     }
 
     fn shade(&mut self, mut vertex: Vertex, left: Spectrum, flight: &mut Flight, id: P::Id) -> Step {
-        let emission = left * self.met(&vertex);
+        let emission = left * self.met(&vertex, id);
+        if P::RECORDS {
+            let black = Spectrum::BLACK;
+            let parts = Parts { arrived: left, emission, ambient: black, blurred_sky: black };
+            self.walk.report_shaded(&vertex.path, (&vertex.s, &vertex.crossing), &parts, id);
+        }
         self.walk.probe.local(id, emission);
         let ray = vertex.path;
         let sampler = ray.sampler.fork(SCATTER_BRANCH);
@@ -109,6 +117,9 @@ impl<P: Probe> EyeWalk<'_, P> {
         let scattered = bsdf.scatter(vertex.s.wo_local, choice, sampler.d2(Dim::Scatter));
         if let Some(through) = scattered.filter(|scattered| scattered.passes) {
             let next = straight_on(&ray, (&vertex.s, &vertex.crossing), through.weight);
+            if P::RECORDS {
+                self.walk.probe.chosen(&chosen(&vertex.s, &through, (&sampler, 0.0)));
+            }
             return Step { radiance: emission, next: Some((next, RayKind::sharp(BranchKind::Transmission))) };
         }
         // Of what is there in part only the rest was met.
@@ -138,10 +149,21 @@ impl<P: Probe> EyeWalk<'_, P> {
             None => RayKind::sharp(scattered.kind),
             Some(_) => RayKind::drawn(scattered.kind),
         };
+        if P::RECORDS {
+            let other = vertex.pdf(d, vertex.s.wo);
+            self.walk.probe.chosen(&chosen(&vertex.s, &scattered, (&sampler, other)));
+        }
         self.vertices.push(vertex);
         if child.depth > self.own.roulette_depth {
             let kept = kept(child.throughput.max() / child.compression);
-            if kept < 1.0 && sampler.d1(Dim::Roulette) >= kept {
+            let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+            if u >= kept {
+                if P::ACTIVE {
+                    let refused = self.walk.probe.ray(id, &child, kind);
+                    self.walk.probe.limit(refused, Limit { value: u, threshold: kept });
+                    self.walk.probe.stop(refused, StopReason::Roulette, Spectrum::BLACK);
+                    self.walk.probe.result(refused, Spectrum::BLACK);
+                }
                 return Step::end(radiance);
             }
             child.weight = child.weight / kept;
@@ -151,7 +173,7 @@ impl<P: Probe> EyeWalk<'_, P> {
     }
 
     /// What the surface that was met sends along the ray, by the share of having met it.
-    fn met(&self, vertex: &Vertex) -> Spectrum {
+    fn met(&mut self, vertex: &Vertex, id: P::Id) -> Spectrum {
         let t = self.vertices.len() + 2;
         let own = self.own.ways.weight(0, t, || 1.0);
         let Some(lamp) = vertex.s.lamp.filter(|lamp| !lamp.radiance.is_black()) else {
@@ -159,8 +181,16 @@ impl<P: Probe> EyeWalk<'_, P> {
         };
         let LightHit { p, .. } = lamp.hit;
         let end = End { light: lamp.light as usize, source: Source::Surface(lamp.hit), p };
-        let share = || self.share_of_met(&end, vertex.s.wo * -1.0, vertex.own);
-        vertex.s.emission * own + lamp.radiance * self.own.ways.weight(0, t, share)
+        let share = self.own.ways.weight(0, t, || self.share_of_met(&end, -vertex.s.wo, vertex.own));
+        if P::RECORDS {
+            let other = self.vertices.last().map_or(0.0, |before| {
+                let lit = before.lit(before.s.wo);
+                let chance = self.walk.cx.scene.light_chance(self.own.light_sampler, &lit, end.light);
+                chance * vertex.s.lamp_pdf(self.walk.cx, &lamp, lit.p)
+            });
+            self.walk.probe.met_light(id, other, share);
+        }
+        vertex.s.emission * own + lamp.radiance * share
     }
 
     /// What surrounds the scene sends along a ray that left it.
@@ -211,10 +241,25 @@ impl<P: Probe> EyeWalk<'_, P> {
         let end = End::sampled(chosen.light, &sample, vertex);
         let t = self.vertices.len() + 2;
         let share = || self.share_of_asked(&end, vertex, sample.wi, (chosen.chance, sample.pdf));
-        let weight = self.own.ways.weight(1, t, share);
-        let weight = f * (wi.z.abs() * weight * there / chosen.chance);
+        let share = self.own.ways.weight(1, t, share);
+        let weight = f * (wi.z.abs() * share * there / chosen.chance);
         if weight.is_black() {
             return radiance;
+        }
+        if P::RECORDS {
+            let u = choosing.d2(Dim::Light);
+            self.walk.probe.chosen(&Choice {
+                by: ChosenBy::Light,
+                chance: chosen.chance,
+                light_choice: Some(RandomNumbers::one(Dim::LightChoice, choosing.d1(Dim::LightChoice))),
+                f: Some(f * there),
+                cos: Some(wi.z.abs()),
+                pdf: sample.pdf,
+                other_pdf: sample.pdf.map(|_| vertex.pdf(vertex.s.wo, sample.wi)),
+                mis: Some(share),
+                random: sample.pdf.map(|_| RandomNumbers::two(Dim::Light, u.to_array())),
+                ..Choice::sharp()
+            });
         }
         let light = self.walk.shadow(ray, (&vertex.s, &vertex.crossing), chosen.light, weight, &sample, id);
         radiance + weight * light

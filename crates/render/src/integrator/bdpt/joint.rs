@@ -6,7 +6,10 @@ use super::{
     eye::EyeWalk,
     weight::Densities,
 };
-use crate::{Contribution, Splat, probe::Probe};
+use crate::{
+    Contribution, Splat,
+    probe::{Choice, ChosenBy, Probe},
+};
 
 impl<P: Probe> EyeWalk<'_, P> {
     /// Joins the particle's vertices to the camera.
@@ -51,13 +54,19 @@ impl<P: Probe> EyeWalk<'_, P> {
             if self.own.ways.weight(s, t, || 1.0) == 0.0 {
                 continue;
             }
-            sum += self.edge(vertex, (particle, index), id) * there;
+            sum += self.edge(vertex, there, (particle, index), id);
         }
         sum
     }
 
     /// What one vertex of the particle sends to one of the eye's walk, by the share of this edge.
-    fn edge(&mut self, vertex: &Vertex, (particle, index): (&Particle, usize), id: P::Id) -> Spectrum {
+    fn edge(
+        &mut self,
+        vertex: &Vertex,
+        there: f32,
+        (particle, index): (&Particle, usize),
+        id: P::Id,
+    ) -> Spectrum {
         let other = &particle.vertices[index];
         if !other.is_connectible() {
             return Spectrum::BLACK;
@@ -69,16 +78,27 @@ impl<P: Probe> EyeWalk<'_, P> {
             return Spectrum::BLACK;
         }
         let is_first = index == 0 && particle.end.is_sharp();
+        let sent = other.sent(-d, is_first);
         let cos = other.s.surface.n_g.dot(d).abs();
-        let sent = other.sent(-d, is_first) * (cos * wi.z.abs() / (distance * distance));
-        let unweighted = f * sent;
-        if unweighted.is_black() || !unweighted.is_finite() {
+        let seen = f * (cos * wi.z.abs() * there / (distance * distance));
+        if sent.is_black() || !(seen * sent).is_finite() {
             return Spectrum::BLACK;
         }
         let t = self.vertices.len() + 2;
-        let weight = self.own.ways.weight(index + 2, t, || self.share_of_edge(vertex, (particle, index), d));
-        let weighted = unweighted * weight;
-        weighted * self.walk.passes(vertex, Some(other.beside(-d)), d, id)
+        let share = self.own.ways.weight(index + 2, t, || self.share_of_edge(vertex, (particle, index), d));
+        if P::RECORDS {
+            self.walk.probe.chosen(&Choice {
+                by: ChosenBy::Joined,
+                f: Some(f * there),
+                cos: Some(wi.z.abs()),
+                pdf: Some(vertex.pdf(vertex.s.wo, d)),
+                other_pdf: Some(other.pdf(other.s.wo, -d)),
+                mis: Some(share),
+                ..Choice::sharp()
+            });
+        }
+        let weight = seen * share;
+        weight * self.walk.joint(vertex, (other.beside(-d), d), (weight, sent), id)
     }
 
     /// The densities of a particle's vertices up to one, and of the light, where the path goes on in direction `d`; `met` is

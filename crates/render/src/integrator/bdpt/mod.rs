@@ -18,7 +18,10 @@ use super::{
     vertices::Stamina,
     walk::{Rules, Walk},
 };
-use crate::{Contribution, LightSampler, PathRay, SampleCx, probe::Probe};
+use crate::{
+    Contribution, LightSampler, PathRay, SampleCx,
+    probe::{Probe, RayKind, TreeNode},
+};
 use eye::EyeWalk;
 
 /// Which ways to find a path count, and how much.
@@ -65,6 +68,9 @@ impl Kind for Bidirectional {
                 ParamDefault::Bool(true),
                 "What one strategy finds counts by its share among all; else as if it were the only one.",
             ),
+            OF_PBRT[0],
+            OF_PBRT[1],
+            OF_PBRT[2],
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -72,9 +78,30 @@ impl Kind for Bidirectional {
         let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
         let roulette_depth = args.int("roulettedepth") as u32;
         let ways = ways(args)?;
+        for ParamSpec { name, .. } in OF_PBRT {
+            if args.bool(name) {
+                args.warning(
+                    name,
+                    format!("\"{name}\" has no effect; \"strategy\" shows what one strategy finds"),
+                );
+            }
+        }
         Some(Box::new(Self { rules, light_sampler, roulette_depth, ways }))
     }
 }
+
+/// Parameters that pbrt-v4 takes.
+const OF_PBRT: [ParamSpec; 3] = {
+    const fn of(name: &'static str) -> ParamSpec {
+        ParamSpec::new(
+            name,
+            ParamType::Bool,
+            ParamDefault::Bool(false),
+            "Taken as pbrt-v4 takes it; without effect.",
+        )
+    }
+    [of("regularize"), of("visualizestrategies"), of("visualizeweights")]
+};
 
 /// The parameters `strategy` and `weighted`.
 fn ways(args: &mut Args<'_>) -> Option<Ways> {
@@ -132,14 +159,15 @@ impl Transport for Bidirectional {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let (Start::Eye(ray) | Start::Again(&crate::probe::TreeNode { path: ray, .. })) = start;
+        let (Start::Eye(ray) | Start::Again(&TreeNode { path: ray, .. })) = start;
         let ray = PathRay { media: cx.scene.start, ..ray };
         let mut walk = Walk::new(&self.rules, cx, probe);
         let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
-        let particle = walk.particle(&ray, stamina, parent);
+        let id = walk.probe.ray(parent, &ray, RayKind::Eye);
+        let particle = walk.particle(&ray, stamina, id);
         let mut eye = EyeWalk { own: self, walk, particle: particle.as_ref(), vertices: Vec::new() };
-        eye.splat(parent, out);
-        eye.trace(ray, parent, out);
+        eye.splat(id, out);
+        eye.trace(ray, id, out);
         out.rays = eye.walk.rays;
         out.imbalances = eye.walk.imbalances;
     }

@@ -24,11 +24,11 @@ use crate::{
     Lit, PathRay,
     footprint::Onlooker,
     media::{Boundary, Crossing},
-    probe::Probe,
+    probe::{Probe, RayKind, StopReason},
 };
 
 pub(super) use end::End;
-pub(super) use particle::{Particle, Stamina};
+pub(super) use particle::{Particle, Stamina, chosen};
 
 /// Scattered rays use this branch of the sampler, those that go straight on the next: as those of paths.
 pub(super) const SCATTER_BRANCH: u32 = 1 << 15;
@@ -159,16 +159,26 @@ impl<P: Probe> Walk<'_, P> {
         }
     }
 
-    /// The share of light that passes between a surface and a point, or infinitely far away.
-    pub(super) fn passes(&mut self, vertex: &Vertex, to: Option<Point3>, d: Vector3, id: P::Id) -> Spectrum {
-        let ray = match to {
-            Some(point) => vertex.s.surface.spawn_to(point, vertex.s.time),
-            None => vertex.s.surface.spawn(d, vertex.s.time),
-        };
+    /// What passes of `sent` light from a point to a vertex, or from a vertex to the camera, in direction `d` from the
+    /// vertex: announced as a ray with this `weight` in the result of `parent`.
+    pub(super) fn joint(
+        &mut self,
+        vertex: &Vertex,
+        (to, d): (Point3, Vector3),
+        (weight, sent): (Spectrum, Spectrum),
+        parent: P::Id,
+    ) -> Spectrum {
+        let ray = vertex.s.surface.spawn_to(to, vertex.s.time);
         let media = vertex.crossing.media(vertex.s.side_of(d));
-        let path =
-            PathRay { media, ..vertex.path.child((vertex.s.surface.p, ray), Spectrum::ONE, LENS_BRANCH) };
-        self.way(&path, to, id).share
+        let path = PathRay { media, ..vertex.path.child((vertex.s.surface.p, ray), weight, LENS_BRANCH) };
+        let id = self.probe.ray(parent, &path, RayKind::Connection);
+        let passage = self.way(&path, Some(to), id);
+        let arriving = sent * passage.share;
+        let reason = if passage.share.is_black() { passage.end } else { StopReason::HitLight };
+        self.probe.local(id, arriving);
+        self.probe.stop(id, reason, Spectrum::BLACK);
+        self.probe.result(id, arriving);
+        arriving
     }
 }
 

@@ -1,7 +1,7 @@
 //! The way of a particle: from a light through the scene, and from where it scatters to the camera.
 use durer_core::{
     math::{Point3, Ray, Vector3},
-    sampling::Dim,
+    sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
 use durer_model::{
@@ -10,11 +10,17 @@ use durer_model::{
 };
 
 use super::{
-    super::{shading::Shading, walk::Walk},
+    super::{
+        shading::Shading,
+        walk::{Parts, Walk},
+    },
     EMISSION_BRANCH, End, Flight, LENS_BRANCH, SCATTER_BRANCH, Vertex, kept, scattered_on, straight_on,
     towards,
 };
-use crate::{PathRay, Sighted, Splat, media, probe::Probe};
+use crate::{
+    PathRay, Sighted, Splat, media,
+    probe::{Choice, ChosenBy, Probe, RandomNumbers, RayKind, StopReason},
+};
 
 /// Surfaces passed in a row at most.
 const MOST_PASSED: u32 = 1000;
@@ -76,6 +82,15 @@ impl<P: Probe> Walk<'_, P> {
         let end = End { light: chosen.light, source: begun.source, p };
         let mut particle = Particle { end, own: own * chosen.chance, other: 0.0, vertices: Vec::new() };
         let ray = self.first_ray(eye, &begun, (time, chosen.chance));
+        if P::RECORDS {
+            self.probe.chosen(&Choice {
+                by: ChosenBy::Light,
+                chance: chosen.chance,
+                pdf: Some(begun.pdf_direction),
+                random: Some(RandomNumbers::two(Dim::Scatter, u[1].to_array())),
+                ..Choice::sharp()
+            });
+        }
         if ray.throughput.is_finite() {
             self.follow_particle(ray, (flight, p), stamina, &mut particle, id);
         }
@@ -100,17 +115,28 @@ impl<P: Probe> Walk<'_, P> {
         (mut flight, mut from): (Flight, Point3),
         stamina: Stamina,
         particle: &mut Particle,
-        id: P::Id,
+        mut parent: P::Id,
     ) {
         let start = ray.throughput.max();
         while (particle.vertices.len() as u32) < stamina.vertices && ray.passed <= MOST_PASSED {
             self.rays += 1;
+            let id = self.announce(&ray, parent);
+            parent = id;
             let Some(hit) = self.cx.scene.closest_in_the_way(self.cx, &ray.ray, self.probe, id) else {
+                self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
                 return;
             };
-            let Some((s, crossing, left)) = self.meet(&mut ray, &hit, |_, _| {}) else { continue };
+            let before = ray.media;
+            let met = self.meet(&mut ray, &hit, |walk, s| walk.probe.surface(id, s.object, &hit, &s.surface));
+            let Some((s, crossing, left)) = met else { continue };
+            if P::RECORDS {
+                let black = Spectrum::BLACK;
+                let parts = Parts { arrived: left, emission: black, ambient: black, blurred_sky: black };
+                self.report_shaded(&PathRay { media: before, ..ray }, (&s, &crossing), &parts, id);
+            }
             // Whoever looks at the back of something one-sided does not see it.
             if self.cx.scene.material(s.object).is_one_sided() && !s.surface.is_outside(s.wo) {
+                self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
                 return;
             }
             let sampler = ray.sampler.fork(SCATTER_BRANCH);
@@ -135,17 +161,34 @@ impl<P: Probe> Walk<'_, P> {
                 (!weight.is_black() && weight.is_finite())
                     .then(|| scattered_on(&ray, (&vertex.s, &vertex.crossing), &scattered, left * weight))
             });
+            if let Some(scattered) = scattered.filter(|_| P::RECORDS) {
+                let other = vertex.pdf(vertex.s.frame.to_world(scattered.wi), vertex.s.wo);
+                self.probe.chosen(&chosen(&vertex.s, &scattered, (&sampler, other)));
+            }
             particle.vertices.push(vertex);
-            let Some(child) = next else { return };
+            let Some(child) = next else {
+                self.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+                return;
+            };
             ray = child;
             if particle.vertices.len() as u32 > stamina.sure {
                 let kept = kept(ray.throughput.max() / start);
                 if kept < 1.0 && sampler.d1(Dim::Roulette) >= kept {
+                    self.probe.stop(id, StopReason::Roulette, Spectrum::BLACK);
                     return;
                 }
                 ray.throughput = ray.throughput / kept;
             }
         }
+    }
+
+    /// Tells of a part of the way, which brings nothing to the pixel by itself.
+    fn announce(&mut self, ray: &PathRay, parent: P::Id) -> P::Id {
+        let black = Spectrum::BLACK;
+        let id =
+            self.probe.ray(parent, &PathRay { weight: black, throughput: black, ..*ray }, RayKind::Photon);
+        self.probe.result(id, black);
+        id
     }
 
     /// How the camera sees a vertex of a particle, and what it brings there; `None` if it does not, or nothing.
@@ -176,7 +219,10 @@ impl<P: Probe> Walk<'_, P> {
         if radiance.is_black() {
             return None;
         }
-        let radiance = radiance * self.passes(vertex, Some(seen.from), d, id);
+        if P::RECORDS {
+            self.probe.chosen(&Choice { by: ChosenBy::Joined, ..Choice::sharp() });
+        }
+        let radiance = self.joint(vertex, (seen.from, d), (Spectrum::BLACK, radiance), id);
         (!radiance.is_black()).then_some(Sighting { d, seen, splat: Splat { film, radiance } })
     }
 }
@@ -189,6 +235,28 @@ impl Particle {
             Some(before) => before.other = pdf.map_or(1.0, |pdf| before.by_area(pdf, p)),
             None => self.other = pdf.map_or(1.0, |pdf| self.end.by_area(pdf, p)),
         }
+    }
+}
+
+/// How the direction came about that a walk goes on in; `other` is the density of the way back.
+pub(in super::super) fn chosen(
+    s: &Shading,
+    scattered: &Scattered,
+    (sampler, other): (&Sampler, f32),
+) -> Choice {
+    let cos = scattered.wi.z.abs();
+    let u = sampler.d2(Dim::Scatter);
+    let spread = scattered.pdf.is_some();
+    Choice {
+        by: if spread { ChosenBy::Lobe } else { ChosenBy::Sharp },
+        lobe: s.bsdf.lobes().nth(scattered.lobe).map(|lobe| lobe.name()),
+        f: scattered.pdf.filter(|_| cos > 0.0).map(|pdf| scattered.weight * (pdf / cos)),
+        cos: spread.then_some(cos),
+        pdf: scattered.pdf,
+        other_pdf: spread.then_some(other),
+        chance: if spread { 1.0 } else { scattered.chance },
+        random: spread.then(|| RandomNumbers::two(Dim::Scatter, u.to_array())),
+        ..Choice::sharp()
     }
 }
 
