@@ -27,11 +27,12 @@ use std::sync::{
 use durer_core::{sampling::Sampler, spectrum::Basis};
 
 use crate::{
-    Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
+    Contribution, ImbalanceTotals, SampleCx, Scene, Value,
     film::{BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
+use pass::Eye;
 
 /// Edge of a tile in pixels.
 const TILE: u32 = 32;
@@ -131,11 +132,25 @@ impl<'a> Job<'a> {
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
-    fn eye(&self, pixel: [u32; 2], sample: u32) -> (PathRay, f32) {
+    fn eye(&self, pixel: [u32; 2], sample: u32) -> (Eye, f32) {
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
-        let (ray, weight) = pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler);
-        (PathRay::eye(ray, sampler), weight)
+        pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler)
+    }
+
+    /// Traces an eye ray; what the film stores of it, `None` if it has no value, as data where nothing was hit.
+    fn value_of(&self, cx: &SampleCx<'_>, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        if self.is_blocked(eye) {
+            *out = Contribution::default();
+            return Some([0.0; 3]);
+        }
+        self.integrator.sample(cx, eye.ray, out);
+        film_value(cx, out, eye.gain)
+    }
+
+    /// Whether the camera lets no light through along a ray: there is nothing to trace then.
+    fn is_blocked(&self, eye: &Eye) -> bool {
+        eye.gain == 0.0 && self.integrator.output() == Output::Radiance
     }
 
     /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it.
@@ -221,8 +236,8 @@ impl<'a> Job<'a> {
                     return done;
                 }
                 for sample in pass.samples.clone() {
-                    let (ray, weight) = self.eye([x, y], sample);
-                    match self.take(&cx, ray, &mut out, &mut done) {
+                    let (eye, weight) = self.eye([x, y], sample);
+                    match self.take(&cx, &eye, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
@@ -237,25 +252,29 @@ impl<'a> Job<'a> {
     fn take(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        eye: &Eye,
         out: &mut Contribution,
         done: &mut TileDone,
     ) -> Option<[f32; 3]> {
-        match &mut done.counters {
-            Some(counters) => self.integrator.count(cx, ray, out, counters),
-            None => self.integrator.sample(cx, ray, out),
-        }
+        let value = match &mut done.counters {
+            Some(counters) if !self.is_blocked(eye) => {
+                self.integrator.count(cx, eye.ray, out, counters);
+                film_value(cx, out, eye.gain)
+            }
+            _ => self.value_of(cx, eye, out),
+        };
         done.samples += 1;
         done.rays += out.rays;
         done.imbalances.add(&out.imbalances);
-        film_value(cx, out)
+        value
     }
 }
 
-/// What the film stores of a sample; `None` if it has no value, as data where nothing was hit.
-fn film_value(cx: &SampleCx<'_>, out: &Contribution) -> Option<[f32; 3]> {
+/// What the film stores of a sample of which the camera makes `gain` times its radiance; `None` if it has no value, as data
+/// where nothing was hit.
+fn film_value(cx: &SampleCx<'_>, out: &Contribution, gain: f32) -> Option<[f32; 3]> {
     match out.value {
-        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance)),
+        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance).map(|v| v * gain)),
         Value::Data(data) => data,
     }
 }
