@@ -5,7 +5,7 @@ use durer_core::{
     math::{Motion, Point2, Point3, Ray, Transform, Vector3},
 };
 use durer_model::{
-    camera::{Camera, Shutter},
+    camera::{Camera, EyeRay, Shutter},
     filter::Filter,
 };
 
@@ -27,6 +27,8 @@ pub struct View {
     pub shutter: Shutter,
     /// How pixels are made of samples.
     pub filter: Filter,
+    /// What the picture is multiplied with: the film's speed, ISO 100 is 1.
+    pub speed: f32,
 }
 
 /// A point as the camera sees it, in render space.
@@ -108,8 +110,24 @@ impl View {
     /// The ray through a point of the picture, in pixels from the upper left corner, in render space and of unit length.
     /// `lens` is where on the lens it starts, see [`durer_model::camera::Lens::at`].
     pub fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
-        let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
-        let ray = self.placement.ray(&self.camera.ray(film, lens, time));
+        self.placed(&self.camera.ray(self.part(film), lens, time))
+    }
+    /// The same with what its radiance counts in the picture.
+    #[inline]
+    pub(crate) fn eye(&self, film: Point2, lens: Point2, time: f32) -> (Ray, f32) {
+        let EyeRay { ray, weight } = self.camera.eye(self.part(film), lens, time);
+        (self.placed(&ray), weight * self.speed)
+    }
+    /// Where on the lens that ray starts, in metres right of and above its centre.
+    pub(crate) fn on_lens(&self, film: Point2, lens: Point2) -> [f32; 2] {
+        self.camera.on_lens(self.part(film), lens)
+    }
+    /// A point of the picture by the picture's size.
+    fn part(&self, film: Point2) -> Point2 {
+        Point2::new(film.x / self.width as f32, film.y / self.height as f32)
+    }
+    fn placed(&self, ray: &Ray) -> Ray {
+        let ray = self.placement.ray(ray);
         // PERF: a placement without scale keeps the length (bench render).
         if (ray.d.length_squared() - 1.0).abs() <= 4.0 * f32::EPSILON {
             ray

@@ -142,6 +142,7 @@ impl Subject<'_> {
             filter_weight: eye
                 .filter(|_| !is_adaptive || data.is_some())
                 .map(|eye| Number(eye.filter_weight)),
+            gain: eye.map(|eye| eye.gain).filter(|gain| *gain != 1.0).map(Number),
             film: eye.map(|eye| eye.film.map(Number)).unwrap_or_default(),
             lens: eye.and_then(|eye| eye.lens).map(|l| l.map(Number)),
             time: eye.map(|eye| Number(eye.time)).unwrap_or_default(),

@@ -43,6 +43,10 @@ pub struct Tree {
     pub antialias: String,
     /// What the sample counts in the pixel; null with adaptive antialiasing.
     pub filter_weight: Option<Number>,
+    /// What the camera makes of the radiance that arrives along the eye ray, if not the same: `rgb` is that times the
+    /// eye ray's result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gain: Option<Number>,
     /// Where in the picture the sample lies, in pixels from the upper left corner.
     pub film: [Number; 2],
     /// Where on the lens the eye ray starts, in metres right of and above its centre; null for a pinhole.
@@ -363,7 +367,7 @@ impl Tree {
         children
     }
     /// The sample's value, folded from the leaves: `local` plus weight times result of each child, in order, in single
-    /// precision. The bits of `rgb` for radiance.
+    /// precision; and times `gain`. The bits of `rgb` for radiance.
     pub fn fold(&self) -> [f32; 3] {
         let children = self.children();
         let mut sums: Vec<[f32; 3]> = self.nodes.iter().map(|n| n.local.map(|v| v.0)).collect();
@@ -373,6 +377,7 @@ impl Tree {
                 (0..3).for_each(|i| sums[parent][i] += weight[i].0 * result[i]);
             }
         }
-        sums.first().copied().unwrap_or_default()
+        let gain = self.gain.map_or(1.0, |gain| gain.0);
+        sums.first().copied().unwrap_or_default().map(|v| v * gain)
     }
 }

@@ -166,8 +166,11 @@ impl Writer<'_> {
         }
         let file = self.desc.film.filename.as_ref();
         let file = file.map(|f| format!(" \"string filename\" [ {} ]", quoted(f))).unwrap_or_default();
+        let told =
+            |name: &str, v: Option<f32>| v.map(|v| format!(" \"float {name}\" [ {v} ]")).unwrap_or_default();
+        let back = told("diagonal", self.desc.film.diagonal_mm) + &told("iso", self.desc.film.iso);
         self.line(&format!(
-            "Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{file}"
+            "Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{back}{file}"
         ));
         self.line(&match sampler {
             SamplerKind::Regular | SamplerKind::Stratified => {

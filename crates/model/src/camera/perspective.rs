@@ -67,8 +67,9 @@ impl Camera for Perspective {
     fn lens(&self) -> &Lens {
         &self.lens
     }
-    fn lens_mut(&mut self) -> &mut Lens {
-        &mut self.lens
+    fn focus_at(&mut self, depth: f32) -> Result<(), String> {
+        self.lens.focus_at(depth);
+        Ok(())
     }
     fn shutter(&self) -> &Shutter {
         &self.shutter

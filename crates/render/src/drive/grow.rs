@@ -7,7 +7,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use super::{Gather, Job, Pass, Rendered, TILE, TileDone, crew, film_value, lock};
+use super::{Gather, Job, Pass, Rendered, TILE, TileDone, crew, lock};
 use crate::{
     Contribution,
     film::{BLOCK, Tile},
@@ -173,17 +173,7 @@ impl Job<'_> {
             let middle = |i: u32, end: u32| (i * edge + edge / 2).min(end - 1);
             let [px, py] = [middle(x, view.width), middle(y, view.height)];
             let inside = (window.x0..window.x1).contains(&px) && (window.y0..window.y1).contains(&py);
-            row.push(
-                inside
-                    .then(|| {
-                        let ray = self.eye([px, py], 0).0;
-                        let cx = self.cx(&ray.sampler);
-                        self.integrator.sample(&cx, ray, &mut out);
-                        out.splats.clear();
-                        film_value(&cx, &out)
-                    })
-                    .flatten(),
-            );
+            row.push(inside.then(|| self.value_of(&self.eye([px, py], 0).0, &mut out)).flatten());
         }
         true
     }

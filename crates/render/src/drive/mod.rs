@@ -30,11 +30,12 @@ use durer_core::{
 };
 
 use crate::{
-    Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
+    Contribution, ImbalanceTotals, SampleCx, Scene, Value,
     film::{self, BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
+use pass::Eye;
 
 /// Edge of a tile in pixels.
 const TILE: u32 = 32;
@@ -136,11 +137,32 @@ impl<'a> Job<'a> {
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
-    fn eye(&self, pixel: [u32; 2], sample: u32) -> (PathRay, f32) {
+    fn eye(&self, pixel: [u32; 2], sample: u32) -> (Eye, f32) {
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
-        let (ray, weight) = pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler);
-        (PathRay::eye(ray, sampler), weight)
+        pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler)
+    }
+
+    /// Traces an eye ray; what the film stores of it, `None` if it has no value, as data where nothing was hit.
+    fn value_of(&self, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        let value = self.trace(&self.cx(&eye.ray.sampler), eye, out);
+        out.splats.clear();
+        value
+    }
+
+    /// The same; what the sample has for other places of the picture stays in `out`.
+    fn trace(&self, cx: &SampleCx<'_>, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        if self.is_blocked(eye) {
+            *out = Contribution::default();
+            return Some([0.0; 3]);
+        }
+        self.integrator.sample(cx, eye.ray, out);
+        film_value(cx, out, eye.gain)
+    }
+
+    /// Whether the camera lets no light through along a ray: there is nothing to trace then.
+    fn is_blocked(&self, eye: &Eye) -> bool {
+        eye.gain == 0.0 && self.integrator.output() == Output::Radiance
     }
 
     /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
@@ -227,9 +249,9 @@ impl<'a> Job<'a> {
                     return done;
                 }
                 for sample in pass.samples.clone() {
-                    let (ray, weight) = self.eye([x, y], sample);
-                    let cx = self.cx(&ray.sampler);
-                    match self.take(&cx, ray, &mut out, &mut done) {
+                    let (eye, weight) = self.eye([x, y], sample);
+                    let cx = self.cx(&eye.ray.sampler);
+                    match self.take(&cx, &eye, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
@@ -249,7 +271,7 @@ impl<'a> Job<'a> {
         }
         if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
             for splat in &out.splats {
-                let rgb = cx.basis.to_rgb(splat.radiance);
+                let rgb = cx.basis.to_rgb(splat.radiance).map(|v| v * self.scene.view.speed);
                 let places = std::iter::once(splat.film).chain(self.scene.view.repeats(splat.film));
                 done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
             }
@@ -263,25 +285,29 @@ impl<'a> Job<'a> {
     fn take(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        eye: &Eye,
         out: &mut Contribution,
         done: &mut TileDone,
     ) -> Option<[f32; 3]> {
-        match &mut done.counters {
-            Some(counters) => self.integrator.count(cx, ray, out, counters),
-            None => self.integrator.sample(cx, ray, out),
-        }
+        let value = match &mut done.counters {
+            Some(counters) if !self.is_blocked(eye) => {
+                self.integrator.count(cx, eye.ray, out, counters);
+                film_value(cx, out, eye.gain)
+            }
+            _ => self.trace(cx, eye, out),
+        };
         done.samples += 1;
         done.rays += out.rays;
         done.imbalances.add(&out.imbalances);
-        film_value(cx, out)
+        value
     }
 }
 
-/// What the film stores of a sample; `None` if it has no value, as data where nothing was hit.
-fn film_value(cx: &SampleCx<'_>, out: &Contribution) -> Option<[f32; 3]> {
+/// What the film stores of a sample of which the camera makes `gain` times its radiance; `None` if it has no value, as data
+/// where nothing was hit.
+fn film_value(cx: &SampleCx<'_>, out: &Contribution, gain: f32) -> Option<[f32; 3]> {
     match out.value {
-        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance)),
+        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance).map(|v| v * gain)),
         Value::Data(data) => data,
     }
 }

@@ -59,8 +59,10 @@ impl Job<'_> {
         let mut own = PartCount { pixels: 1, samples: self.settings.samples.into(), ..PartCount::default() };
         let start = Instant::now();
         for sample in 0..self.settings.samples {
-            let ray = self.eye(pixel, sample).0;
-            self.integrator.count(&self.cx(&ray.sampler), ray, out, &mut own.counters);
+            let (eye, _) = self.eye(pixel, sample);
+            if !self.is_blocked(&eye) {
+                self.integrator.count(&self.cx(&eye.ray.sampler), eye.ray, out, &mut own.counters);
+            }
         }
         own.busy = start.elapsed();
         own

@@ -1,11 +1,11 @@
 //! Samples taken once more, watched: ray trees, parts of them, and what was cut off.
 use std::sync::{Mutex, atomic::AtomicBool};
 
-use durer_core::sampling::Dim;
+use durer_core::{math::Point2, sampling::Dim};
 
-use super::{Job, adaptive, crew, film_value, lock, pass};
+use super::{Job, adaptive, crew, film_value, lock, pass, pass::Eye};
 use crate::{
-    Contribution, PathRay, SampleCx,
+    Contribution, SampleCx,
     film::Tile,
     integrator::Particles,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
@@ -38,14 +38,13 @@ impl Job<'_> {
     pub fn record_in(&self, pixel: [u32; 2], sample: u32, detail: Detail) -> (RayTree, [f32; 3]) {
         match self.adaptive() {
             None => {
-                let ray = self.eye(pixel, sample).0;
-                let place = pass::place(&self.scene.view, self.settings.nesting, pixel, &ray.sampler);
-                self.watch(&ray, (place.0.to_array(), place.1), detail)
+                let eye = self.eye(pixel, sample).0;
+                let place = pass::place(&self.scene.view, self.settings.nesting, pixel, &eye.ray.sampler);
+                self.watch(&eye, place, detail)
             }
             Some(how) => match adaptive::places(self, &how, pixel).get(sample as usize) {
                 Some(&place) => {
-                    let film = adaptive::film_of(place);
-                    self.watch(&adaptive::eye(self, place), (film.to_array(), 1.0), detail)
+                    self.watch(&adaptive::eye(self, place), (adaptive::film_of(place), 1.0), detail)
                 }
                 None => (RayTree::default(), [0.0; 3]),
             },
@@ -54,28 +53,24 @@ impl Job<'_> {
 
     /// The linear RGB of one sample, unwatched: that of [`Job::record`], bit for bit, but faster.
     pub fn value(&self, pixel: [u32; 2], sample: u32) -> [f32; 3] {
-        let ray = match self.adaptive() {
+        let eye = match self.adaptive() {
             None => Some(self.eye(pixel, sample).0),
             Some(how) => adaptive::places(self, &how, pixel)
                 .get(sample as usize)
                 .map(|&place| adaptive::eye(self, place)),
         };
         let mut out = Contribution::default();
-        ray.and_then(|ray| {
-            let cx = self.cx(&ray.sampler);
-            self.integrator.sample(&cx, ray, &mut out);
-            film_value(&cx, &out)
-        })
-        .unwrap_or([0.0; 3])
+        eye.and_then(|eye| self.value_of(&eye, &mut out)).unwrap_or([0.0; 3])
     }
 
     /// Traces an eye ray through a place of the picture.
-    fn watch(&self, ray: &PathRay, (film, weight): ([f32; 2], f32), detail: Detail) -> (RayTree, [f32; 3]) {
+    fn watch(&self, eye: &Eye, (film, weight): (Point2, f32), detail: Detail) -> (RayTree, [f32; 3]) {
+        let Eye { ray, gain } = eye;
         let cx = self.cx(&ray.sampler);
         let mut recorder = Recorder::new(&cx, detail);
         let mut out = Contribution::default();
         self.integrator.record(&cx, *ray, &mut out, &mut recorder);
-        let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
+        let value = film_value(&cx, &out, *gain).unwrap_or([0.0; 3]);
         let mut tree = recorder.finish(&value);
         let (view, nesting) = (&self.scene.view, self.settings.nesting);
         let lens = pass::on_lens(view, nesting, &ray.sampler);
@@ -92,10 +87,11 @@ impl Job<'_> {
             }
         }
         tree.eye = Some(TreeEye {
-            film,
-            lens: lens.map(|u| view.camera.lens().at(u)),
+            film: film.to_array(),
+            lens: lens.map(|u| view.on_lens(film, u)),
             time: ray.ray.time,
             filter_weight: weight,
+            gain: *gain,
         });
         (tree, value)
     }
@@ -114,7 +110,8 @@ impl Job<'_> {
             // What a ray brings depends on all of the two walks.
             let mut out = Contribution::default();
             self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);
-            let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
+            let gain = tree.eye.map_or(1.0, |eye| eye.gain);
+            let value = film_value(&cx, &out, gain).unwrap_or([0.0; 3]);
             let mut again = recorder.finish(&value).below(id);
             if let Some(first) = again.nodes.first_mut() {
                 first.random.clone_from(&node.random);
@@ -127,7 +124,7 @@ impl Job<'_> {
         let mut out = Contribution::default();
         self.integrator.replay(&cx, node, &mut out, &mut recorder);
         let value = match node.kind {
-            RayKind::Eye => film_value(&cx, &out).unwrap_or([0.0; 3]),
+            RayKind::Eye => film_value(&cx, &out, 1.0).unwrap_or([0.0; 3]),
             _ => [0.0; 3],
         };
         let mut again = recorder.finish(&value);

@@ -19,6 +19,8 @@ pub struct TreeEye {
     /// What the sample counts in the pixel, by the filter: may be negative. 1 with adaptive antialiasing, where areas
     /// count.
     pub filter_weight: f32,
+    /// What the camera makes of the radiance that arrives: 1 unless a lens of glass or the film's speed count.
+    pub gain: f32,
 }
 
 /// What is recorded beside what is always.
@@ -74,8 +76,8 @@ impl RayTree {
         children
     }
 
-    /// The pixel sample, computed again from the leaves: `local` plus weight times result of each child, in recorded
-    /// order. Equals the recorded result bit for bit.
+    /// The radiance of the pixel sample, computed again from the leaves: `local` plus weight times result of each child, in
+    /// recorded order. Equals the recorded result bit for bit.
     pub fn fold(&self) -> Spectrum {
         let mut results: Vec<Spectrum> = self.nodes.iter().map(|n| n.local).collect();
         // A parent's sum must run over its children from first to last, and each child must be finished before.
