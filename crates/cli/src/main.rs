@@ -9,6 +9,7 @@ mod cost;
 mod draw;
 mod exit;
 mod explain;
+mod frames;
 mod info;
 mod interrupt;
 mod load;

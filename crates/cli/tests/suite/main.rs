@@ -3,6 +3,7 @@
 mod complaints;
 mod cost;
 mod environment;
+mod frames;
 mod info;
 mod interrupt;
 mod pictures;

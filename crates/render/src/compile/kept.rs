@@ -9,7 +9,7 @@ use durer_core::{
     math::{Bounds3, Motion, Point3},
 };
 use durer_model::{light::Extent, shape::Geometry, texture::Texture};
-use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc};
+use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc, TextureDesc};
 
 use super::{Before, CompileOptions, GeometryCounts, camera, compiled, geometry, nodes};
 use crate::{Scene, media};
@@ -63,6 +63,8 @@ pub struct Kept {
     pub(super) ground: Arc<Ground>,
     pub(super) placed: geometry::Placed,
     pub(super) textures: Arc<[Box<dyn Texture>]>,
+    /// How these were described.
+    pub(super) described: Arc<[TextureDesc]>,
 }
 
 impl Kept {
@@ -86,6 +88,19 @@ impl Kept {
         diagnostics: &mut Diagnostics,
     ) -> Option<(Scene, Self)> {
         let (scene, kept) = compiled(desc, (assets, options), Before::Kept(self), diagnostics)?;
+        Some((scene, kept?))
+    }
+
+    /// Compiles what the scene has become at another moment of an animation. What is where it was and as it was is used again,
+    /// as are textures if they are described as before; hits are those of a first compilation, bit for bit, if the
+    /// description says where render space has its origin. `None` if `diagnostics` got an error.
+    pub fn moved(
+        &self,
+        desc: &SceneDesc,
+        (assets, options): (&dyn Assets, &CompileOptions),
+        diagnostics: &mut Diagnostics,
+    ) -> Option<(Scene, Self)> {
+        let (scene, kept) = compiled(desc, (assets, options), Before::Moment(self), diagnostics)?;
         Some((scene, kept?))
     }
 
