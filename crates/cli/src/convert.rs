@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
         bail!("{}: is there already\n  help: --force writes over it", out.display());
     }
     let wishes = Options { threads: args.threads.map(|n| n as usize), ..args.sample.wishes() };
-    let imported = import(scene);
+    let imported = import(scene, &wishes);
     let failure = failure(&imported, &wishes);
     let (studio, prepared) = match Studio::open(imported, &wishes) {
         Ok(opened) => opened,

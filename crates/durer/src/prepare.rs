@@ -65,6 +65,9 @@ impl Prepared {
     /// # Errors
     /// Why there is no bound, as a clause.
     pub fn brightest(&self) -> Result<f32, &str> {
+        if self.settings.carried == Carried::Wavelengths {
+            return Err("bounds are known of red, green and blue, and rays carry wavelengths");
+        }
         match self.integrator.bounded() {
             Some(gloss) => self.scene.brightest(gloss),
             None => Err("paths also follow the light between matte surfaces"),

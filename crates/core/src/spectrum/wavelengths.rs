@@ -49,7 +49,7 @@ impl Wavelengths {
 
     /// What a lane of 1 counts in the picture's red, green and blue: the matching functions by the density and the number
     /// of lanes.
-    pub(super) fn weights(&self) -> [[f32; 3]; 4] {
+    pub fn weights(&self) -> [[f32; 3]; 4] {
         self.nm.map(|nm| {
             let factor = 0.25 / density(nm);
             rgb(nm).map(|c| c * factor)

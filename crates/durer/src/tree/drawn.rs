@@ -2,10 +2,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    capture::of,
+    capture::of_weight,
     number::{Number, Rgb},
 };
-use crate::probe::{Choice, ChosenBy};
+use crate::{
+    probe::{Choice, ChosenBy},
+    spectrum::Basis,
+};
 
 /// How a ray was chosen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,7 +38,7 @@ pub struct Drawn {
     pub cos: Option<Number>,
 }
 
-pub(super) fn drawn(choice: &Choice) -> Drawn {
+pub(super) fn drawn(basis: &Basis, choice: &Choice) -> Drawn {
     let from = match choice.by {
         ChosenBy::Light => "light",
         ChosenBy::Sharp => "sharp",
@@ -51,7 +54,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
         pdf: choice.pdf.map(Number),
         other_pdf: choice.other_pdf.map(Number),
         mis: choice.mis.map(Number),
-        f: choice.f.map(of),
+        f: choice.f.map(|f| of_weight(basis, f)),
         cos: choice.cos.map(Number),
     }
 }

@@ -10,7 +10,7 @@ use crate::{
 };
 
 use super::{
-    capture::of,
+    capture::of_weight,
     document::{Body, Fresnel, Lobe, Lookup, Media},
     number::Number,
 };
@@ -41,11 +41,11 @@ pub(super) fn fresnel(view: &FresnelView) -> Fresnel {
     }
 }
 
-pub(super) fn lobe(view: &LobeView) -> Lobe {
+pub(super) fn lobe(basis: &Basis, view: &LobeView) -> Lobe {
     Lobe {
         name: view.name.to_owned(),
-        reflectance: of(view.reflectance),
-        transmittance: of(view.transmittance),
+        reflectance: of_weight(basis, view.reflectance),
+        transmittance: of_weight(basis, view.transmittance),
         exponent: view.exponent.map(Number),
         alpha: view.alpha.map(Number),
     }

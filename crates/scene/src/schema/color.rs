@@ -47,14 +47,17 @@ enum Spectrum {
 impl Args<'_> {
     /// A colour.
     pub fn color(&mut self, name: &str) -> Color {
-        match self.spec(name).is_some_and(|spec| spec.is_light()) {
-            true => self.light_color(name).color,
-            false => self.color_input(name).even().unwrap_or(Color::BLACK),
-        }
+        self.color_input(name).even().unwrap_or(Color::BLACK)
     }
 
     /// A colour or a colour texture; complains about a texture or spectrum that does not exist.
     pub fn color_input(&mut self, name: &str) -> ColorInput {
+        if self.spec(name).is_some_and(|spec| spec.is_light()) {
+            return match self.light_input(name) {
+                LightInput::Even(light) => ColorInput::Constant(light.color),
+                LightInput::Texture(index) => ColorInput::Texture(index),
+            };
+        }
         if let Some(plain) = self.plain(name) {
             return plain;
         }

@@ -7,7 +7,7 @@ use crate::{
     glam::DVec3,
     math::Vector3,
     probe::{RayKind, StopReason, TreeHit, TreeNode},
-    spectrum::{Basis, Spectrum},
+    spectrum::Spectrum,
 };
 
 /// Largest error of a ratio of sines; and of a share of light.
@@ -141,10 +141,11 @@ impl Checked<'_> {
             RayKind::Reflection => (reflected, lobe.reflectance, "reflected"),
             _ => (1.0 - reflected, lobe.transmittance, "transmitted"),
         };
-        let full = lanes(shading.arrived * factor);
+        let all = shading.arrived * factor;
+        let full = lanes(all);
         let told = lanes(child.share(node));
         let is_wrong = |i: usize| (told[i] - share * full[i]).abs() > TOLERANCE * full[i].max(1e-3);
-        if !(0..3).any(is_wrong) {
+        if !(0..4).any(is_wrong) {
             return;
         }
         let name = self.name(hit);
@@ -154,8 +155,8 @@ impl Checked<'_> {
             words::number(sides.n1),
             words::number(sides.n2),
             words::degrees_of(sides.cos),
-            words::color(full),
-            words::light(child.share(node))
+            words::lanes(&self.tree.basis, all),
+            words::lanes(&self.tree.basis, child.share(node))
         );
         self.add(Law::Fresnel, number, &name, text);
     }
@@ -228,6 +229,6 @@ fn refracted(d: DVec3, n: DVec3, sides: &Sides) -> Option<DVec3> {
     Some((d * ratio + n * (ratio * sides.cos - cos)).normalize_or_zero())
 }
 
-fn lanes(s: Spectrum) -> [f64; 3] {
-    Basis::Rgb.to_rgb(s).map(f64::from)
+fn lanes(s: Spectrum) -> [f64; 4] {
+    s.lanes().map(f64::from)
 }
