@@ -48,6 +48,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/penumbra.pbrt"),
     },
     Builtin {
+        name: "caustic",
+        doc: "what glass balls and a brass ring do with the light of a small lamp, found by particles",
+        text: include_str!("../scenes/caustic.pbrt"),
+    },
+    Builtin {
         name: "cornell",
         doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
         text: include_str!("../scenes/cornell.pbrt"),

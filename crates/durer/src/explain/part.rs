@@ -166,6 +166,9 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
                 RayKind::GlossyReflection if is_matte(child) => PartKind::Bounce,
                 RayKind::GlossyReflection => PartKind::Gloss,
                 RayKind::GlossyRefraction => PartKind::Translucency,
+                // What particles bring came by another surface.
+                RayKind::Connection => PartKind::Bounce,
+                RayKind::Photon => continue,
             };
             parts.add(kind, light_name(prepared, child), times(rgb(child.throughput), rgb(child.result)));
         }

@@ -12,7 +12,8 @@ use crate::probe::{Choice, ChosenBy};
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Drawn {
-    /// `light` where a light was sampled, `sharp` where there is but one direction, else the lobe's name.
+    /// `light` where a light was sampled, `sharp` where there is but one direction, `joined` where it leads to a walk from the
+    /// other end, else the lobe's name.
     pub from: String,
     /// The lobe, if it was one that chose.
     pub lobe: Option<String>,
@@ -38,6 +39,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
     let from = match choice.by {
         ChosenBy::Light => "light",
         ChosenBy::Sharp => "sharp",
+        ChosenBy::Joined => "joined",
         ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
     };
     Drawn {

@@ -28,7 +28,7 @@ use durer_core::{sampling::Sampler, spectrum::Basis};
 
 use crate::{
     Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
-    film::{BLOCK, Film, Pixel, Tile},
+    film::{self, BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
@@ -204,7 +204,7 @@ impl<'a> Job<'a> {
             let done = self.tile(pass, tile, pixels);
             let mut shared = lock(&shared);
             shared.film.write(tile, pixels);
-            shared.take(&done);
+            shared.take(self, &done);
             drop(shared);
             finished(tile, &done);
         });
@@ -227,10 +227,29 @@ impl<'a> Job<'a> {
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
                     }
+                    self.splat(&cx, &mut out, &mut done, BadSample { pixel: [x, y], sample });
                 }
             }
         }
         done
+    }
+
+    /// Takes what a sample has for other places of the picture; none of it if part of it is infinite or NaN.
+    fn splat(&self, cx: &SampleCx<'_>, out: &mut Contribution, done: &mut TileDone, bad: BadSample) {
+        // PERF: what has no splats asks for nothing (bench render).
+        if out.splats.is_empty() {
+            return;
+        }
+        if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
+            for splat in &out.splats {
+                let rgb = cx.basis.to_rgb(splat.radiance);
+                let places = std::iter::once(splat.film).chain(self.scene.view.repeats(splat.film));
+                done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
+            }
+        } else {
+            done.bad(bad);
+        }
+        out.splats.clear();
     }
 
     /// Takes a sample and counts it.
@@ -274,6 +293,7 @@ struct TileDone {
     first_bad: Option<BadSample>,
     imbalances: ImbalanceTotals,
     splits: Option<Splits>,
+    splats: Vec<film::Splat>,
 }
 
 impl TileDone {
@@ -299,7 +319,8 @@ impl Rendered {
         }
     }
 
-    fn take(&mut self, done: &TileDone) {
+    fn take(&mut self, job: &Job<'_>, done: &TileDone) {
+        self.film.splat(done.samples, &done.splats, &job.scene.view.filter, job.window());
         self.samples += done.samples;
         self.rays += done.rays;
         self.bad_samples += done.bad_samples;

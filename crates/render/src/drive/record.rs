@@ -7,6 +7,7 @@ use super::{Job, adaptive, crew, film_value, lock, pass};
 use crate::{
     Contribution, PathRay,
     film::Tile,
+    integrator::Particles,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
 };
 
@@ -98,13 +99,24 @@ impl Job<'_> {
     /// The part of a tree below a node, traced again from what the node holds: its ray, sampler and bodies. Equal to that
     /// part bit for bit, with ids from 0. `None` for rays that were never traced but for limits: what is known of those is
     /// their parents'.
-    pub fn replay(&self, tree: &RayTree, node: u32) -> Option<RayTree> {
-        let node = tree.nodes.get(node as usize)?;
+    pub fn replay(&self, tree: &RayTree, id: u32) -> Option<RayTree> {
+        let node = tree.nodes.get(id as usize)?;
         if !node.is_traced() && node.limit.is_none() {
             return None;
         }
         let cx = self.cx();
         let mut recorder = Recorder::new(&cx, Detail::default());
+        if self.integrator.particles() != Particles::None {
+            // What a ray brings depends on all of the two walks.
+            let mut out = Contribution::default();
+            self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);
+            let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
+            let mut again = recorder.finish(&value).below(id);
+            if let Some(first) = again.nodes.first_mut() {
+                first.random.clone_from(&node.random);
+            }
+            return Some(again);
+        }
         if let Some(choice) = &node.chosen {
             recorder.chose(choice);
         }

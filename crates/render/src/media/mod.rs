@@ -12,7 +12,7 @@ use durer_model::{Medium, material::Material};
 
 pub(crate) use crossing::{Boundary, Crossing};
 pub use imbalances::{ImbalanceTotals, Imbalances};
-pub(crate) use start::start;
+pub(crate) use start::{around, start};
 
 /// The media of a scene: equal ones are one.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -86,6 +86,21 @@ impl RayTree {
         results.first().copied().unwrap_or(Spectrum::BLACK)
     }
 
+    /// The part of the tree from a node on, with ids from 0.
+    #[must_use]
+    pub fn below(&self, id: u32) -> Self {
+        let mut numbers: Vec<Option<u32>> = vec![None; self.nodes.len()];
+        let mut nodes = Vec::new();
+        for (index, node) in (0..).zip(&self.nodes) {
+            let parent = node.parent.and_then(|parent| numbers[parent as usize]);
+            if index == id || parent.is_some() {
+                numbers[index as usize] = Some(nodes.len() as u32);
+                nodes.push(TreeNode { parent, ..node.clone() });
+            }
+        }
+        Self { nodes, ..self.clone() }
+    }
+
     /// See [`RayTree::bad`].
     pub(super) fn first_bad(&self) -> Option<u32> {
         let brought = |child: u32| {

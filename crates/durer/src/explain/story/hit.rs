@@ -77,6 +77,8 @@ impl Teller<'_> {
             RayKind::GlossyReflection => "gloss ray",
             RayKind::GlossyRefraction => "scattered ray",
             RayKind::Passing => "ray that goes on",
+            RayKind::Connection => "joint",
+            RayKind::Photon => "particle",
         };
         let brings = match self.share(node) {
             share if share > 0.0 => format!(", which brings {},", percent(share)),
@@ -193,7 +195,7 @@ impl Teller<'_> {
         let mut all: Vec<usize> = self.children[index]
             .iter()
             .map(|&c| c as usize)
-            .filter(|&c| !matches!(self.node(c).kind, RayKind::Shadow | RayKind::Passing))
+            .filter(|&c| self.node(c).kind.is_followed() && self.node(c).kind != RayKind::Passing)
             .filter(|&c| self.node(c).stop != Some(StopReason::TirNoRefraction))
             .collect();
         all.sort_by(|&a, &b| self.share(self.node(b)).total_cmp(&self.share(self.node(a))));

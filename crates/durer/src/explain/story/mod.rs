@@ -8,7 +8,7 @@ mod rest;
 
 use crate::{
     Prepared,
-    probe::{RayKind, RayTree, TreeNode},
+    probe::{RayTree, TreeNode},
     tree::Subject,
 };
 
@@ -111,7 +111,7 @@ impl<'a> Teller<'a> {
             let mut next: Vec<usize> = self.children[index]
                 .iter()
                 .map(|&c| c as usize)
-                .filter(|&c| self.node(c).kind != RayKind::Shadow && self.node(c).is_traced())
+                .filter(|&c| self.node(c).kind.is_followed() && self.node(c).is_traced())
                 .filter(|&c| self.node(c).hit.is_some() && self.rank(self.node(c)) >= WORTH_DETAIL)
                 .collect();
             next.sort_by(|&a, &b| self.rank(self.node(a)).total_cmp(&self.rank(self.node(b))));

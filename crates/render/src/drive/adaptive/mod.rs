@@ -138,6 +138,7 @@ fn value(
     bad: BadSample,
 ) -> [f32; 3] {
     let value = job.take(&job.cx(), eye(job, place), out, done).unwrap_or_default();
+    job.splat(&job.cx(), out, done, bad);
     if value.iter().all(|v| v.is_finite()) {
         return value;
     }
@@ -174,7 +175,7 @@ pub(super) fn render(job: &Job<'_>, how: &Adaptive, watch: &Watch<'_>, rendered:
             let (pixels, done) = refine.tile(tile, watch, canvas);
             let mut shared = lock(&shared);
             shared.film.write(tile, &pixels);
-            shared.take(&done);
+            shared.take(job, &done);
             drop(shared);
             watch.progress.advance(tile.area(), done.rays);
         },
