@@ -42,17 +42,6 @@ pub struct Sighted {
     pub importance: f32,
 }
 
-/// A point as the camera sees it, in render space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighted {
-    /// Where the eye ray starts.
-    pub from: Point3,
-    /// The place in the picture, in pixels; it may lie around it.
-    pub film: Point2,
-    /// See [`View::importance`].
-    pub importance: f32,
-}
-
 /// `render_from_camera`, at every moment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraPlacement {
