@@ -81,11 +81,20 @@ fn reference(folder: &Path, name: &str) -> (u32, u32, Blocks) {
     (picture.width, picture.height, blocks(picture.width as usize, &pixels))
 }
 
-fn ours(file: &Path, (width, height): (u32, u32), samples: u32, seed: u64) -> Blocks {
+/// By paths, or by `other` of as many bounces as the file asks for.
+fn ours(
+    file: &Path,
+    other: Option<&str>,
+    (width, height): (u32, u32),
+    (samples, seed): (u32, u64),
+) -> Blocks {
     let mut imported = durer::open(&file.to_string_lossy());
+    if let (Some(other), Some(node)) = (other, &mut imported.desc.integrator) {
+        node.kind = other.to_owned();
+    }
     // A file without an integrator asks pbrt for paths.
     let options = Options {
-        integrator: imported.desc.integrator.is_none().then(|| "path".to_owned()),
+        integrator: imported.desc.integrator.is_none().then(|| other.unwrap_or("path").to_owned()),
         width: Some(width),
         height: Some(height),
         samples: Some(samples),
@@ -130,11 +139,11 @@ fn compare([a, b]: [&Blocks; 2], [p, q]: [&Blocks; 2]) -> Agreement {
     }
 }
 
-fn check(folder: &Path, case: &Case, samples: u32) {
+fn check(folder: &Path, case: &Case, other: Option<&str>, samples: u32) {
     let (width, height, a) = reference(folder, &format!("{}-a", case.name));
     let (_, _, b) = reference(folder, &format!("{}-b", case.name));
     let file = folder.join("assets/pbrt").join(case.file);
-    let [p, q] = [1, 2].map(|seed| ours(&file, (width, height), samples / 2, seed));
+    let [p, q] = [1, 2].map(|seed| ours(&file, other, (width, height), (samples / 2, seed)));
     let found = compare([&a, &b], [&p, &q]);
     eprintln!("{}: {found:?}", case.name);
     let agrees = found.bias.abs() < 5e-3 + 4.0 * found.sigma && found.error <= 1.6 * found.expected;
@@ -150,7 +159,16 @@ fn check(folder: &Path, case: &Case, samples: u32) {
 fn paths_make_the_pictures_of_pbrt() {
     let Some(folder) = shared("paths_make_the_pictures_of_pbrt") else { return };
     for case in QUICK {
-        check(&folder, case, 8);
+        check(&folder, case, None, 8);
+    }
+}
+
+#[test]
+fn walks_from_both_ends_make_the_pictures_of_pbrt() {
+    let Some(folder) = shared("walks_from_both_ends_make_the_pictures_of_pbrt") else { return };
+    let samples = if std::env::var_os("DURER_SLOW").is_some() { 64 } else { 8 };
+    for case in &QUICK[..3] {
+        check(&folder, case, Some("bdpt"), samples);
     }
 }
 
@@ -162,6 +180,6 @@ fn paths_make_all_surface_pictures_of_pbrt() {
     }
     let Some(folder) = shared("paths_make_all_surface_pictures_of_pbrt") else { return };
     for case in QUICK.iter().chain(OTHERS) {
-        check(&folder, case, 256);
+        check(&folder, case, None, 256);
     }
 }

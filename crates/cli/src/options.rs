@@ -14,6 +14,7 @@ use durer::{
     film::Tile,
     integrator::INTEGRATORS,
     sampling::SamplerKind,
+    spectrum::Carried,
 };
 
 use distribution::DistributionOptions;
@@ -140,6 +141,10 @@ pub(crate) struct TransportOptions {
     /// else opaque].
     #[arg(long, value_name = "HOW", value_parser = shadows())]
     shadows: Option<Shadows>,
+    /// Whether rays carry four wavelengths, other ones for every sample, instead of red, green and blue: measured spectra
+    /// count in full, and glass of a curve splits light [default: the scene's, else off].
+    #[arg(long, value_name = "WHETHER", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    spectral: Option<Switch>,
     /// How hits are found; the picture does not depend on it [default: balanced].
     #[arg(long, value_name = "HOW", default_value = DEFAULT_SEARCH, hide_default_value = true, value_parser = search())]
     accel: Search,
@@ -170,6 +175,15 @@ pub(crate) struct SampleOptions {
     pub(crate) distribution: DistributionOptions,
 }
 
+impl Switch {
+    fn carried(self) -> Carried {
+        match self {
+            Self::On => Carried::Wavelengths,
+            Self::Off => Carried::Rgb,
+        }
+    }
+}
+
 impl FilmOptions {
     fn antialias(&self) -> Antialias {
         if self.antialias != Some(Strategy::Adaptive) {
@@ -189,7 +203,7 @@ impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
         let FilmOptions { width, height, scale, spp, sampler, crop, seed, .. } = self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, spectral, accel } =
             self.transport.clone();
         Options {
             integrator,
@@ -203,6 +217,7 @@ impl SampleOptions {
             max_depth,
             min_contribution,
             shadows,
+            carried: spectral.map(Switch::carried),
             crop,
             engine: accel.engine,
             preset: accel.preset,
@@ -229,7 +244,7 @@ impl SampleOptions {
             crop: _,
             seed,
         } = &self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, spectral, accel } =
             &self.transport;
         let scene = quoted(&self.scene.scene);
         let mut words = vec![scene, format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
@@ -253,6 +268,12 @@ impl SampleOptions {
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
         say("shadows", shadows.map(|v| v.word().to_owned()));
+        words.extend(
+            spectral.map(|v| if v == Switch::On { "--spectral" } else { "--spectral=off" }.to_owned()),
+        );
+        let mut say = |name: &str, value: Option<String>| {
+            words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
+        };
         say("accel", Some(accel.word.to_owned()).filter(|word| word != DEFAULT_SEARCH));
         self.distribution.words().into_iter().for_each(|(name, value)| say(name, value));
         if self.scene.lenient {

@@ -18,6 +18,7 @@ pub mod cost;
 pub mod doctor;
 mod environment;
 pub mod explain;
+mod glb;
 mod options;
 pub mod picture;
 mod prepare;
@@ -25,6 +26,7 @@ mod sequence;
 mod studio;
 mod transport;
 pub mod tree;
+mod written;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
@@ -44,11 +46,13 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 
+pub use glb::Glb;
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
 pub use sequence::Sequence;
 pub use studio::{Studio, Wanted};
 pub use transport::with_usual_depth;
+pub use written::ToWrite;
 
 use std::path::Path;
 

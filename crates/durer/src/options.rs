@@ -2,7 +2,7 @@
 use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
-use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_core::{math::Interval, sampling::SamplerKind, spectrum::Carried};
 use durer_io::import::{Moment, Play, Reading};
 use durer_render::{
     compile::LensOptions,
@@ -58,6 +58,8 @@ pub struct Options {
     pub distribution: Distribution,
     /// What transparent things do to shadow rays.
     pub shadows: Option<Shadows>,
+    /// Whether rays carry colours or wavelengths.
+    pub carried: Option<Carried>,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.

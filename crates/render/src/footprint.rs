@@ -97,6 +97,7 @@ mod tests {
             width: SIZE[0],
             height: SIZE[1],
             filter: Filter::pixel(),
+            speed: 1.0,
         }
     }
 

@@ -5,7 +5,7 @@ use durer_core::{
     math::{Motion, Point2, Point3, Ray, Transform, Vector3},
 };
 use durer_model::{
-    camera::{Camera, Shutter},
+    camera::{Camera, EyeRay, Shutter},
     filter::Filter,
 };
 
@@ -27,6 +27,19 @@ pub struct View {
     pub shutter: Shutter,
     /// How pixels are made of samples.
     pub filter: Filter,
+    /// What the picture is multiplied with: the film's speed, ISO 100 is 1.
+    pub speed: f32,
+}
+
+/// A point as the camera sees it, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighted {
+    /// Where the eye ray starts.
+    pub from: Point3,
+    /// The place in the picture, in pixels; it may lie around it.
+    pub film: Point2,
+    /// See [`View::importance`].
+    pub importance: f32,
 }
 
 /// `render_from_camera`, at every moment.
@@ -97,14 +110,61 @@ impl View {
     /// The ray through a point of the picture, in pixels from the upper left corner, in render space and of unit length.
     /// `lens` is where on the lens it starts, see [`durer_model::camera::Lens::at`].
     pub fn ray(&self, film: Point2, lens: Point2, time: f32) -> Ray {
-        let film = Point2::new(film.x / self.width as f32, film.y / self.height as f32);
-        let ray = self.placement.ray(&self.camera.ray(film, lens, time));
+        self.placed(&self.camera.ray(self.part(film), lens, time))
+    }
+    /// The same with what its radiance counts in the picture.
+    #[inline]
+    pub(crate) fn eye(&self, film: Point2, lens: Point2, time: f32) -> (Ray, f32) {
+        let EyeRay { ray, weight } = self.camera.eye(self.part(film), lens, time);
+        (self.placed(&ray), weight * self.speed)
+    }
+    /// Where on the lens that ray starts, in metres right of and above its centre.
+    pub(crate) fn on_lens(&self, film: Point2, lens: Point2) -> [f32; 2] {
+        self.camera.on_lens(self.part(film), lens)
+    }
+    /// A point of the picture by the picture's size.
+    fn part(&self, film: Point2) -> Point2 {
+        Point2::new(film.x / self.width as f32, film.y / self.height as f32)
+    }
+    fn placed(&self, ray: &Ray) -> Ray {
+        let ray = self.placement.ray(ray);
         // PERF: a placement without scale keeps the length (bench render).
         if (ray.d.length_squared() - 1.0).abs() <= 4.0 * f32::EPSILON {
             ray
         } else {
             Ray { d: ray.d.normalize(), ..ray }
         }
+    }
+    /// How the camera sees a point of render space at `time` seconds, through the point `lens` of its lens; `None` if it does
+    /// not.
+    pub fn sees(&self, p: Point3, lens: Point2, time: f32) -> Option<Sighted> {
+        let render_from_camera = self.placement.at(time);
+        let seen = self.camera.sees(render_from_camera.inverse().point(p), lens)?;
+        let film = Point2::new(seen.film.x * self.width as f32, seen.film.y * self.height as f32);
+        let from = render_from_camera.point(seen.from);
+        let d = render_from_camera.vector(seen.d).normalize();
+        Some(Sighted { from, film, importance: self.importance(d, (p - from).length(), time) })
+    }
+    /// The density of eye rays over an area that faces unit direction `d`, at a distance from their origin: that of
+    /// [`durer_model::camera::Camera::importance`], in render space. A placement `M` makes areas across `d` larger by
+    /// `|det M| / |M d|`, for unit `d` of camera space.
+    pub fn importance(&self, d: Vector3, distance: f32, time: f32) -> f32 {
+        let m = self.placement.at(time);
+        let along = m.inverse().vector(d);
+        let stretch = 1.0 / along.length();
+        let det = m.to_f64().matrix3.determinant().abs() as f32;
+        self.camera.importance(along * stretch, distance / stretch) * stretch / det
+    }
+    /// Whether light can be connected to the camera. Not where each row of the picture has a time of its own: which one
+    /// a particle is seen in is known too late.
+    pub fn is_connectible(&self) -> bool {
+        self.camera.is_connectible() && !self.shutter.is_rolling()
+    }
+    /// The places around the picture that show the same as `film`, in pixels.
+    pub fn repeats(&self, film: Point2) -> impl Iterator<Item = Point2> + use<> {
+        let (w, h) = (self.width as f32, self.height as f32);
+        let all = self.camera.repeats(Point2::new(film.x / w, film.y / h));
+        all.into_iter().map(move |at| Point2::new(at.x * w, at.y * h))
     }
     /// The camera's placement at `time` seconds.
     pub fn render_from_camera(&self, time: f32) -> Transform {

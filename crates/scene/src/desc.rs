@@ -61,6 +61,12 @@ pub struct FilmDesc {
     pub height: Option<u32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// Rays shall carry wavelengths instead of red, green and blue.
+    pub spectral: bool,
+    /// Diagonal of the film in mm, for cameras in which it has a size.
+    pub diagonal_mm: Option<f32>,
+    /// Speed of the film; 100 leaves pictures as they are.
+    pub iso: Option<f32>,
     /// Where the file wants the picture written; shown by `info`, never written to unasked.
     pub filename: Option<String>,
 }

@@ -26,7 +26,7 @@ pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
 pub use schema::{
-    Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema,
-    TextureNames, find,
+    Args, ColorInput, Entry, FloatInput, Kind, LightInput, Missing, ParamDefault, ParamSpec, ParamType,
+    Schema, TextureNames, find,
 };
 pub use span::{Location, SourceId, Sources, Span};

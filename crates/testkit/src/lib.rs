@@ -8,6 +8,7 @@ pub mod bilinear;
 pub mod chi_square;
 pub mod gloss_table;
 pub mod interface;
+pub mod lens;
 pub mod microfacet;
 pub mod quadrature;
 pub mod random;

@@ -125,8 +125,8 @@ fn a_picture_tells_how_it_was_made() {
 
 #[test]
 fn an_integrator_that_stands_in_is_named_as_what_it_is() {
-    let place = Place::new().with("bdpt.pbrt", &format!("Integrator \"bdpt\"\n{SPHERE}"));
-    let ran = place.done("render bdpt.pbrt --spp 1");
+    let place = Place::new().with("mlt.pbrt", &format!("Integrator \"mlt\"\n{SPHERE}"));
+    let ran = place.done("render mlt.pbrt --spp 1");
     assert!(
         ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, path;"),
         "{}",

@@ -15,7 +15,7 @@ use durer_scene::{AssetError, Image, Limits};
 
 pub use exr::{ExrPicture, ExrValue, NamedChannel, encode_exr, read_exr_channels, write_exr};
 pub use output::{PictureFormat, WRITERS, WriteError, Writer, replace_file, writer_for};
-pub use png::{Packing, encode_png, write_png};
+pub use png::{Packing, encode_png, encode_png_rgba, write_png};
 
 use source::Source;
 
@@ -79,6 +79,14 @@ const SUFFIXES: &[(&str, &str)] = &[
 pub(crate) fn format_name(head: &[u8]) -> Option<&'static str> {
     let starts = |s: &&Signature| head.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
     SIGNATURES.iter().find(starts).map(|s| s.name)
+}
+
+/// What the names of image files end with that hold such bytes.
+pub(crate) fn suffix_of(bytes: &[u8]) -> Option<&'static str> {
+    let Some(name) = format_name(bytes) else {
+        return raster::is_tga_by_footer(bytes).then_some(".tga");
+    };
+    SUFFIXES.iter().find(|(_, format)| name.contains(format)).map(|(suffix, _)| *suffix)
 }
 
 /// Decodes a PNG, JPEG, WebP, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.

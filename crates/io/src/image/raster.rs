@@ -108,7 +108,12 @@ pub(super) fn decode_tga(source: &Source<'_>) -> Result<Image, AssetError> {
 /// True if the file is a Targa file: these have no signature, only their name or their last bytes give them away.
 pub(super) fn is_tga(source: &Source<'_>) -> bool {
     let name = source.name.to_lowercase();
-    [".tga", ".icb", ".vda", ".vst"].iter().any(|s| name.ends_with(s)) || source.bytes.ends_with(TARGA_FOOTER)
+    [".tga", ".icb", ".vda", ".vst"].iter().any(|s| name.ends_with(s)) || is_tga_by_footer(source.bytes)
+}
+
+/// True if these are the bytes of a Targa file of version 2.
+pub(super) fn is_tga_by_footer(bytes: &[u8]) -> bool {
+    bytes.ends_with(TARGA_FOOTER)
 }
 
 /// The pixels of a file a byte of which gives up to `ratio` of them.

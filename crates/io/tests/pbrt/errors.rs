@@ -252,7 +252,6 @@ fn what_is_not_supported_warns_once() {
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"sphere\"\nAreaLightSource \"diffuse\"\nWorldEnd",
         &[
             "1:6 warning: the film's \"gbuffer\" is not supported yet; it is ignored | \"gbuffer\"",
-            "1:16 warning: the film's \"iso\" is not supported yet; it is ignored | \"float iso\" 200",
             "2:13 note: durer chooses its acceleration structure itself | \"kdtree\"",
             "3:8 warning: the option \"seed\" is not supported yet; it is ignored | \"integer seed\" 3",
             "4:12 warning: the colour space \"rec2020\" is not supported yet; colours are read as sRGB | \"rec2020\"",

@@ -28,12 +28,13 @@ fn options_are_read() {
     let desc = sound(
         "LookAt 0 0 4  0 0 0  0 1 0\r\n\
          Camera \"perspective\" \"float fov\" 39 \"string name\" \"front\"\r\n\
-         Film \"rgb\" \"integer yresolution\" [ 30 ] \"string filename\" \"out.exr\" \"float diagonal\" 20\r\n\
+         Film \"rgb\" \"integer yresolution\" [ 30 ] \"string filename\" \"out.exr\" \"float diagonal\" 20 \"float iso\" 400\r\n\
          Sampler \"halton\" \"integer pixelsamples\" 7\r\n\
          PixelFilter \"box\"\tIntegrator \"whitted\" \"integer maxdepth\" +3\r\nWorldBegin",
     );
     assert_eq!((desc.film.width, desc.film.height, desc.film.samples), (Some(1280), Some(30), Some(7)));
     assert_eq!(desc.film.filename.as_deref(), Some("out.exr"));
+    assert_eq!((desc.film.diagonal_mm, desc.film.iso), (Some(20.0), Some(400.0)));
     assert_eq!(desc.filter.map(|n| n.kind).as_deref(), Some("box"));
     assert_eq!(desc.sampler.map(|n| n.kind).as_deref(), Some("halton"));
     let integrator = desc.integrator.expect("an integrator");

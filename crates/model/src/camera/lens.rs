@@ -24,6 +24,32 @@ const fn optional(name: &'static str, doc: &'static str) -> ParamSpec {
     ParamSpec::new(name, ParamType::Float, ParamDefault::Unset, doc).range(0.0, f32::INFINITY)
 }
 
+/// What a lens focuses on, in another way.
+pub(super) const FOCUS_PIXEL: ParamSpec = ParamSpec::new(
+    "focuspixel",
+    ParamType::Point2s,
+    ParamDefault::Unset,
+    "Focus on what is seen there, in pixels of Film from the upper left corner, instead of at a distance.",
+)
+.unit("px");
+
+/// The pixel of [`FOCUS_PIXEL`], if it is given; `distance` is the parameter that would say the same.
+pub(super) fn focus_pixel(args: &mut Args<'_>, distance: &str) -> Option<Point2> {
+    let pixel = match args.pairs("focuspixel")[..] {
+        [] => None,
+        [[x, y]] => Some(Point2::new(x, y)),
+        ref other => {
+            args.error("focuspixel", format!("\"focuspixel\" is {} points, expected one", other.len()));
+            None
+        }
+    };
+    if pixel.is_some() && args.is_set(distance) {
+        let message = format!("both \"{distance}\" and \"focuspixel\" are given: each says what is in focus");
+        args.error("focuspixel", message);
+    }
+    pixel
+}
+
 /// The parameters of a lens.
 pub(super) const LENS: [ParamSpec; 7] = [
     ParamSpec::float("lensradius", 0.0, "Radius of the lens; 0 has everything in focus.")
@@ -38,13 +64,7 @@ pub(super) const LENS: [ParamSpec; 7] = [
         "Of the lens, for fnumber. Default: what gives the field of view on a film 24 mm high, focused far away.",
     )
     .unit("mm"),
-    ParamSpec::new(
-        "focuspixel",
-        ParamType::Point2s,
-        ParamDefault::Unset,
-        "Focus on what is seen there, in pixels of Film from the upper left corner, instead of at focaldistance.",
-    )
-    .unit("px"),
+    FOCUS_PIXEL,
     ParamSpec::new(
         "blades",
         ParamType::Int,
@@ -87,18 +107,7 @@ impl Lens {
                 "both \"lensradius\" and \"fnumber\" are given: each says how wide the lens is",
             );
         }
-        let focus_pixel = match args.pairs("focuspixel")[..] {
-            [] => None,
-            [[x, y]] => Some(Point2::new(x, y)),
-            ref other => {
-                args.error("focuspixel", format!("\"focuspixel\" is {} points, expected one", other.len()));
-                None
-            }
-        };
-        if focus_pixel.is_some() && args.is_set("focaldistance") {
-            let message = "both \"focaldistance\" and \"focuspixel\" are given: each says what is in focus";
-            args.error("focuspixel", message);
-        }
+        let focus_pixel = focus_pixel(args, "focaldistance");
         let focus = args.float("focaldistance");
         if focus == 0.0 {
             args.error("focaldistance", "\"focaldistance\" is 0, expected more than 0");
@@ -124,6 +133,11 @@ impl Lens {
     pub(super) fn pinhole() -> Self {
         let focus = FAR;
         Self { radius: 0.0, focus, fnumber: None, focal_mm: None, focus_pixel: None, corners: Vec::new() }
+    }
+
+    /// In front of glass that is traced: the radius of the light that gets in, and what is in focus.
+    pub(super) fn behind(radius: f32, focus: f32, focus_pixel: Option<Point2>) -> Self {
+        Self { radius, focus, focus_pixel, ..Self::pinhole() }
     }
 
     /// Finds the radius of an f-number; `slope` is the height of the picture at depth 1, by 2.

@@ -4,11 +4,14 @@ use durer_core::{
     math::{Interval, Motion, Point2},
     spectrum::Basis,
 };
-use durer_model::camera::{Lens, Shutter};
+use durer_model::camera::{FilmBack, Lens, Shutter};
 use durer_scene::{CameraDesc, Data, Diagnostics, Location, Param, Params, SceneDesc, ValueType};
 
 use super::{CompileOptions, nodes};
 use crate::{CameraPlacement, SampleCx, Scene, View, probe::NoProbe};
+
+/// Of a film that leaves pictures as they are.
+const USUAL_ISO: f32 = 100.0;
 
 /// How wide a lens is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +43,7 @@ pub struct LensOptions {
 impl LensOptions {
     /// The camera with these parameters in place of those that say the same in its own way.
     pub fn given_to(self, camera: CameraDesc) -> CameraDesc {
+        let is_glass = camera.node.kind == "realistic";
         let floats = |name: &str, ty: ValueType, values: &[f32]| Param {
             name: name.to_owned(),
             ty,
@@ -47,16 +51,20 @@ impl LensOptions {
             at: Location::None,
         };
         let aperture = self.aperture.map(|aperture| match aperture {
+            Aperture::Radius(radius) if is_glass => {
+                floats("aperturediameter", ValueType::Float, &[radius * 2e3])
+            }
             Aperture::Radius(radius) => floats("lensradius", ValueType::Float, &[radius]),
             Aperture::FNumber(n) => floats("fnumber", ValueType::Float, &[n]),
         });
         let focus = self.focus.map(|focus| match focus {
+            Focus::Distance(depth) if is_glass => floats("focusdistance", ValueType::Float, &[depth]),
             Focus::Distance(depth) => floats("focaldistance", ValueType::Float, &[depth]),
             Focus::Pixel(pixel) => floats("focuspixel", ValueType::Point2, &pixel),
         });
         let replaced = |name: &str| match name {
-            "lensradius" | "fnumber" => aperture.is_some(),
-            "focaldistance" | "focuspixel" => focus.is_some(),
+            "lensradius" | "aperturediameter" | "fnumber" => aperture.is_some(),
+            "focaldistance" | "focusdistance" | "focuspixel" => focus.is_some(),
             _ => false,
         };
         let mut params = Params::new();
@@ -95,6 +103,10 @@ pub(super) fn view(
 ) -> Option<View> {
     let filter = nodes.filter();
     let mut camera = nodes.camera(&desc.node)?;
+    let film = &nodes.desc.film;
+    let diagonal = film.diagonal_mm.map_or(FilmBack::default().diagonal, |mm| mm * 1e-3);
+    let speed = film.iso.unwrap_or(USUAL_ISO) / USUAL_ISO;
+    camera.load(FilmBack { diagonal });
     camera.fit(options.width, options.height);
     let moves = things_move || !desc.world_from_camera.is_still();
     let shutter = shutter(camera.shutter(), moves, options);
@@ -117,6 +129,7 @@ pub(super) fn view(
         height: options.height,
         shutter,
         filter: filter?,
+        speed,
     })
 }
 
@@ -162,6 +175,9 @@ pub(super) fn focus(
     };
     let camera_from_render = view.render_from_camera(ray.time).inverse();
     let depth = camera_from_render.point(ray.at(hit.t)).z;
-    scene.view.camera.lens_mut().focus_at(depth);
-    Some(())
+    let focused = scene.view.camera.focus_at(depth);
+    focused
+        .map_err(|why| diagnostics.error(at, format!("what is seen at {x},{y} is {depth} m away: {why}")))
+        .ok()
+        .map(|_| ())
 }

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use durer_core::{
     glam::DVec3,
-    math::{Bounds3, Motion},
+    math::{Bounds3, Motion, Point3},
 };
-use durer_model::{shape::Geometry, texture::Texture};
+use durer_model::{light::Extent, shape::Geometry, texture::Texture};
 use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc, TextureDesc};
 
 use super::{Before, CompileOptions, GeometryCounts, camera, compiled, geometry, nodes};
@@ -38,9 +38,13 @@ impl Ground {
         Self { counts: GeometryCounts::of(desc, &built), bounds, moves, built }
     }
 
-    /// Half the diagonal of the bounds, in metres; 1 if there is nothing finite.
-    pub(super) fn radius(&self) -> f32 {
-        if self.bounds.is_empty() { 1.0 } else { 0.5 * self.bounds.diagonal().length() }
+    /// A ball around the bounds, in a space that begins at `origin`; of a radius of 1 m if there is nothing finite.
+    pub(super) fn extent(&self, origin: DVec3) -> Extent {
+        if self.bounds.is_empty() {
+            return Extent { center: Point3::from_f64(-origin), radius: 1.0 };
+        }
+        let center = Point3::from_f64(self.bounds.center().to_f64() - origin);
+        Extent { center, radius: 0.5 * self.bounds.diagonal().length() }
     }
 }
 

@@ -21,7 +21,7 @@ use std::{
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{
-    light::Light,
+    light::{Extent, Light},
     material::Material,
     texture::{Filters, Texture},
 };
@@ -158,7 +158,7 @@ fn compiled(
         materials: &materials,
         accel: options.accel,
     };
-    let (counts, radius) = (ground.counts, ground.radius());
+    let (counts, extent) = (ground.counts, ground.extent(origin));
     // Where nothing is kept, meshes are let go one by one while copies of them are placed.
     let shared = (!matches!(before, Before::Gone)).then(|| Arc::clone(&ground));
     let earlier = match before {
@@ -173,7 +173,7 @@ fn compiled(
     if diagnostics.has_errors() {
         return None;
     }
-    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, radius };
+    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, extent };
     let mut scene = made.scene(desc);
     let pixel_scale = camera::pixel_scale(desc, options);
     camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
@@ -206,20 +206,22 @@ struct Made {
     placed: geometry::Placed,
     view: View,
     report: Report,
-    /// Of everything finite, in metres.
-    radius: f32,
+    /// A ball around everything finite, in render space.
+    extent: Extent,
 }
 
 impl Made {
     /// The scene, neither focused nor told which bodies the camera is in.
     fn scene(self, desc: &SceneDesc) -> Scene {
-        let Self { textures, materials, lights, placed, view, report, radius } = self;
+        let Self { textures, materials, lights, placed, view, report, extent } = self;
         let lights::Lights { lights, names: light_names, .. } = lights;
         let those = |is: fn(&dyn Light) -> bool| {
             (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect()
         };
         Scene {
             brightest: Default::default(),
+            emitters: Default::default(),
+            extent,
             report,
             objects: placed.objects,
             filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
@@ -229,7 +231,7 @@ impl Made {
             lamps: those(|light| !light.surrounds()),
             surroundings: those(|light| light.surrounds()),
             far: those(|light| light.surrounds() || light.is_disk()),
-            chooser: Arc::new(LightChooser::new(&lights, radius)),
+            chooser: Arc::new(LightChooser::new(&lights, extent.radius)),
             lights: lights.into(),
             light_names: light_names.into(),
             view,

@@ -24,14 +24,18 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use durer_core::{sampling::Sampler, spectrum::Basis};
+use durer_core::{
+    sampling::{Dim, Sampler},
+    spectrum::Carried,
+};
 
 use crate::{
-    Contribution, ImbalanceTotals, PathRay, SampleCx, Scene, Value,
-    film::{BLOCK, Film, Pixel, Tile},
+    Contribution, ImbalanceTotals, SampleCx, Scene, Value,
+    film::{self, BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
+use pass::Eye;
 
 /// Edge of a tile in pixels.
 const TILE: u32 = 32;
@@ -126,21 +130,46 @@ pub struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn cx(&self) -> SampleCx<'a> {
-        SampleCx { scene: self.scene, basis: Basis::Rgb }
+    /// The context of a sample of which this is the first sampler.
+    #[inline]
+    fn cx(&self, sampler: &Sampler) -> SampleCx<'a> {
+        SampleCx { scene: self.scene, basis: self.settings.carried.basis(|| sampler.d1(Dim::Lambda)) }
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
-    fn eye(&self, pixel: [u32; 2], sample: u32) -> (PathRay, f32) {
+    fn eye(&self, pixel: [u32; 2], sample: u32) -> (Eye, f32) {
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
-        let (ray, weight) = pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler);
-        (PathRay::eye(ray, sampler), weight)
+        pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler)
     }
 
-    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it.
+    /// Traces an eye ray; what the film stores of it, `None` if it has no value, as data where nothing was hit.
+    fn value_of(&self, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        let value = self.trace(&self.cx(&eye.ray.sampler), eye, out);
+        out.splats.clear();
+        value
+    }
+
+    /// The same; what the sample has for other places of the picture stays in `out`.
+    fn trace(&self, cx: &SampleCx<'_>, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        if self.is_blocked(eye) {
+            *out = Contribution::default();
+            return Some([0.0; 3]);
+        }
+        self.integrator.sample(cx, eye.ray, out);
+        film_value(cx, out, eye.gain)
+    }
+
+    /// Whether the camera lets no light through along a ray: there is nothing to trace then.
+    fn is_blocked(&self, eye: &Eye) -> bool {
+        eye.gain == 0.0 && self.integrator.output() == Output::Radiance
+    }
+
+    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
+    /// wavelengths are no colour that could be compared.
     fn adaptive(&self) -> Option<Adaptive> {
         match (self.settings.antialias, self.integrator.output()) {
+            _ if self.settings.carried == Carried::Wavelengths => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,
         }
@@ -204,14 +233,13 @@ impl<'a> Job<'a> {
             let done = self.tile(pass, tile, pixels);
             let mut shared = lock(&shared);
             shared.film.write(tile, pixels);
-            shared.take(&done);
+            shared.take(self, &done);
             drop(shared);
             finished(tile, &done);
         });
     }
 
     fn tile(&self, pass: &Pass<'_>, tile: Tile, pixels: &mut [Pixel]) -> TileDone {
-        let cx = self.cx();
         let mut done = TileDone { counters: pass.gather.counters(), ..TileDone::default() };
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
@@ -221,41 +249,65 @@ impl<'a> Job<'a> {
                     return done;
                 }
                 for sample in pass.samples.clone() {
-                    let (ray, weight) = self.eye([x, y], sample);
-                    match self.take(&cx, ray, &mut out, &mut done) {
+                    let (eye, weight) = self.eye([x, y], sample);
+                    let cx = self.cx(&eye.ray.sampler);
+                    match self.take(&cx, &eye, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
                     }
+                    self.splat(&cx, &mut out, &mut done, BadSample { pixel: [x, y], sample });
                 }
             }
         }
         done
     }
 
+    /// Takes what a sample has for other places of the picture; none of it if part of it is infinite or NaN.
+    fn splat(&self, cx: &SampleCx<'_>, out: &mut Contribution, done: &mut TileDone, bad: BadSample) {
+        // PERF: what has no splats asks for nothing (bench render).
+        if out.splats.is_empty() {
+            return;
+        }
+        if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
+            for splat in &out.splats {
+                let rgb = cx.basis.to_rgb(splat.radiance).map(|v| v * self.scene.view.speed);
+                let places = std::iter::once(splat.film).chain(self.scene.view.repeats(splat.film));
+                done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
+            }
+        } else {
+            done.bad(bad);
+        }
+        out.splats.clear();
+    }
+
     /// Takes a sample and counts it.
     fn take(
         &self,
         cx: &SampleCx<'_>,
-        ray: PathRay,
+        eye: &Eye,
         out: &mut Contribution,
         done: &mut TileDone,
     ) -> Option<[f32; 3]> {
-        match &mut done.counters {
-            Some(counters) => self.integrator.count(cx, ray, out, counters),
-            None => self.integrator.sample(cx, ray, out),
-        }
+        let value = match &mut done.counters {
+            Some(counters) if !self.is_blocked(eye) => {
+                self.integrator.count(cx, eye.ray, out, counters);
+                film_value(cx, out, eye.gain)
+            }
+            _ => self.trace(cx, eye, out),
+        };
         done.samples += 1;
         done.rays += out.rays;
         done.imbalances.add(&out.imbalances);
-        film_value(cx, out)
+        value
     }
 }
 
-/// What the film stores of a sample; `None` if it has no value, as data where nothing was hit.
-fn film_value(cx: &SampleCx<'_>, out: &Contribution) -> Option<[f32; 3]> {
+/// What the film stores of a sample of which the camera makes `gain` times its radiance; `None` if it has no value, as data
+/// where nothing was hit.
+fn film_value(cx: &SampleCx<'_>, out: &Contribution, gain: f32) -> Option<[f32; 3]> {
     match out.value {
-        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance)),
+        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance).map(|v| v * gain)),
         Value::Data(data) => data,
     }
 }
@@ -274,6 +326,7 @@ struct TileDone {
     first_bad: Option<BadSample>,
     imbalances: ImbalanceTotals,
     splits: Option<Splits>,
+    splats: Vec<film::Splat>,
 }
 
 impl TileDone {
@@ -299,7 +352,8 @@ impl Rendered {
         }
     }
 
-    fn take(&mut self, done: &TileDone) {
+    fn take(&mut self, job: &Job<'_>, done: &TileDone) {
+        self.film.splat(done.samples, &done.splats, &job.scene.view.filter, job.window());
         self.samples += done.samples;
         self.rays += done.rays;
         self.bad_samples += done.bad_samples;

@@ -1,12 +1,12 @@
 //! Which samples when, and the eye ray of each.
 use durer_core::{
-    math::{Point2, Ray},
+    math::Point2,
     sampling::{Dim, Sampler},
 };
 use durer_model::camera::Lens;
 
 use super::Nesting;
-use crate::{View, film::BLOCK};
+use crate::{PathRay, View, film::BLOCK};
 
 /// The passes of a render: a first look after one sample, then four times as many each, then block by block. No pass
 /// crosses the end of a block.
@@ -25,11 +25,19 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
     passes
 }
 
+/// The beginning of a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eye {
+    pub(super) ray: PathRay,
+    /// What the camera makes of the radiance that arrives along the ray; 0 where nothing gets through.
+    pub(super) gain: f32,
+}
+
 /// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
 /// of the lens.
-pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Ray, f32) {
+pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Eye, f32) {
     let (film, weight) = place(view, nesting, pixel, sampler);
-    (ray_through(view, nesting, film, pixel[1], sampler), weight)
+    (eye_through(view, nesting, film, pixel[1], sampler), weight)
 }
 
 /// Where in the picture a sample of `pixel` lies, in pixels, and its weight.
@@ -57,15 +65,16 @@ pub(super) fn on_lens(view: &View, nesting: Nesting, sampler: &Sampler) -> Optio
 }
 
 /// The eye ray through a point of the picture, in pixels, when the row it lies in is exposed.
-pub(super) fn ray_at(view: &View, nesting: Nesting, film: Point2, sampler: &Sampler) -> Ray {
-    ray_through(view, nesting, film, (film.y as u32).min(view.height.saturating_sub(1)), sampler)
+pub(super) fn eye_at(view: &View, nesting: Nesting, film: Point2, sampler: &Sampler) -> Eye {
+    eye_through(view, nesting, film, (film.y as u32).min(view.height.saturating_sub(1)), sampler)
 }
 
 /// The eye ray through a point of the picture, in pixels, when this row is exposed.
-fn ray_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &Sampler) -> Ray {
+fn eye_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &Sampler) -> Eye {
     let u = moment(view, nesting, sampler).unwrap_or(0.5);
     let lens = on_lens(view, nesting, sampler).unwrap_or(Lens::CENTRE);
-    view.ray(film, lens, view.shutter.moment(u, row, view.height))
+    let (ray, gain) = view.eye(film, lens, view.shutter.moment(u, row, view.height));
+    Eye { ray: PathRay::eye(ray, *sampler), gain }
 }
 
 #[cfg(test)]
@@ -95,6 +104,7 @@ mod tests {
             width: 10,
             height: 10,
             filter: Filter::pixel(),
+            speed: 1.0,
         }
     }
 
@@ -103,8 +113,9 @@ mod tests {
         let view = view();
         let of = |i| {
             let sampler = Sampler::new(SamplerKind::Stratified, 5, [3, 4], i, samples);
-            let (ray, weight) = eye_ray(&view, nesting, [3, 4], &sampler);
-            assert_eq!(weight, 1.0);
+            let (eye, weight) = eye_ray(&view, nesting, [3, 4], &sampler);
+            assert_eq!((weight, eye.gain), (1.0, 1.0));
+            let ray = eye.ray.ray;
             // The rays through a place meet at the depth in focus, 1e6 m away, in front of the place.
             let seen = ray.at((1e6 - ray.o.z) / ray.d.z);
             let lens =

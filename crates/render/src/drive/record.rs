@@ -1,12 +1,13 @@
 //! Samples taken once more, watched: ray trees, parts of them, and what was cut off.
 use std::sync::{Mutex, atomic::AtomicBool};
 
-use durer_core::sampling::Dim;
+use durer_core::{math::Point2, sampling::Dim};
 
-use super::{Job, adaptive, crew, film_value, lock, pass};
+use super::{Job, adaptive, crew, film_value, lock, pass, pass::Eye};
 use crate::{
-    Contribution, PathRay,
+    Contribution, SampleCx,
     film::Tile,
+    integrator::Particles,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
 };
 
@@ -37,14 +38,13 @@ impl Job<'_> {
     pub fn record_in(&self, pixel: [u32; 2], sample: u32, detail: Detail) -> (RayTree, [f32; 3]) {
         match self.adaptive() {
             None => {
-                let ray = self.eye(pixel, sample).0;
-                let place = pass::place(&self.scene.view, self.settings.nesting, pixel, &ray.sampler);
-                self.watch(&ray, (place.0.to_array(), place.1), detail)
+                let eye = self.eye(pixel, sample).0;
+                let place = pass::place(&self.scene.view, self.settings.nesting, pixel, &eye.ray.sampler);
+                self.watch(&eye, place, detail)
             }
             Some(how) => match adaptive::places(self, &how, pixel).get(sample as usize) {
                 Some(&place) => {
-                    let film = adaptive::film_of(place);
-                    self.watch(&adaptive::eye(self, place), (film.to_array(), 1.0), detail)
+                    self.watch(&adaptive::eye(self, place), (adaptive::film_of(place), 1.0), detail)
                 }
                 None => (RayTree::default(), [0.0; 3]),
             },
@@ -53,27 +53,24 @@ impl Job<'_> {
 
     /// The linear RGB of one sample, unwatched: that of [`Job::record`], bit for bit, but faster.
     pub fn value(&self, pixel: [u32; 2], sample: u32) -> [f32; 3] {
-        let ray = match self.adaptive() {
+        let eye = match self.adaptive() {
             None => Some(self.eye(pixel, sample).0),
             Some(how) => adaptive::places(self, &how, pixel)
                 .get(sample as usize)
                 .map(|&place| adaptive::eye(self, place)),
         };
-        let (cx, mut out) = (self.cx(), Contribution::default());
-        ray.and_then(|ray| {
-            self.integrator.sample(&cx, ray, &mut out);
-            film_value(&cx, &out)
-        })
-        .unwrap_or([0.0; 3])
+        let mut out = Contribution::default();
+        eye.and_then(|eye| self.value_of(&eye, &mut out)).unwrap_or([0.0; 3])
     }
 
     /// Traces an eye ray through a place of the picture.
-    fn watch(&self, ray: &PathRay, (film, weight): ([f32; 2], f32), detail: Detail) -> (RayTree, [f32; 3]) {
-        let cx = self.cx();
+    fn watch(&self, eye: &Eye, (film, weight): (Point2, f32), detail: Detail) -> (RayTree, [f32; 3]) {
+        let Eye { ray, gain } = eye;
+        let cx = self.cx(&ray.sampler);
         let mut recorder = Recorder::new(&cx, detail);
         let mut out = Contribution::default();
         self.integrator.record(&cx, *ray, &mut out, &mut recorder);
-        let value = film_value(&cx, &out).unwrap_or([0.0; 3]);
+        let value = film_value(&cx, &out, *gain).unwrap_or([0.0; 3]);
         let mut tree = recorder.finish(&value);
         let (view, nesting) = (&self.scene.view, self.settings.nesting);
         let lens = pass::on_lens(view, nesting, &ray.sampler);
@@ -85,12 +82,16 @@ impl Job<'_> {
             let moment = pass::moment(view, nesting, &ray.sampler);
             eye.random.extend(moment.map(|u| RandomNumbers::one(Dim::Time, u)));
             eye.random.extend(lens.map(|u| RandomNumbers::two(Dim::Lens, u.to_array())));
+            if cx.basis.wavelengths().is_some() {
+                eye.random.push(RandomNumbers::one(Dim::Lambda, ray.sampler.d1(Dim::Lambda)));
+            }
         }
         tree.eye = Some(TreeEye {
-            film,
-            lens: lens.map(|u| view.camera.lens().at(u)),
+            film: film.to_array(),
+            lens: lens.map(|u| view.on_lens(film, u)),
             time: ray.ray.time,
             filter_weight: weight,
+            gain: *gain,
         });
         (tree, value)
     }
@@ -98,20 +99,32 @@ impl Job<'_> {
     /// The part of a tree below a node, traced again from what the node holds: its ray, sampler and bodies. Equal to that
     /// part bit for bit, with ids from 0. `None` for rays that were never traced but for limits: what is known of those is
     /// their parents'.
-    pub fn replay(&self, tree: &RayTree, node: u32) -> Option<RayTree> {
-        let node = tree.nodes.get(node as usize)?;
+    pub fn replay(&self, tree: &RayTree, id: u32) -> Option<RayTree> {
+        let node = tree.nodes.get(id as usize)?;
         if !node.is_traced() && node.limit.is_none() {
             return None;
         }
-        let cx = self.cx();
+        let cx = SampleCx { scene: self.scene, basis: tree.basis };
         let mut recorder = Recorder::new(&cx, Detail::default());
+        if self.integrator.particles() != Particles::None {
+            // What a ray brings depends on all of the two walks.
+            let mut out = Contribution::default();
+            self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);
+            let gain = tree.eye.map_or(1.0, |eye| eye.gain);
+            let value = film_value(&cx, &out, gain).unwrap_or([0.0; 3]);
+            let mut again = recorder.finish(&value).below(id);
+            if let Some(first) = again.nodes.first_mut() {
+                first.random.clone_from(&node.random);
+            }
+            return Some(again);
+        }
         if let Some(choice) = &node.chosen {
             recorder.chose(choice);
         }
         let mut out = Contribution::default();
         self.integrator.replay(&cx, node, &mut out, &mut recorder);
         let value = match node.kind {
-            RayKind::Eye => film_value(&cx, &out).unwrap_or([0.0; 3]),
+            RayKind::Eye => film_value(&cx, &out, 1.0).unwrap_or([0.0; 3]),
             _ => [0.0; 3],
         };
         let mut again = recorder.finish(&value);
@@ -146,7 +159,7 @@ impl Job<'_> {
         let (mut sum, mut largest) = ([0.0; 3], 0.0f32);
         for sample in 0..samples {
             let (tree, _) = self.record(pixel, sample);
-            let killed = self.cx().basis.to_rgb(tree.killed());
+            let killed = tree.basis.under_white(tree.killed());
             sum.iter_mut().zip(killed).for_each(|(sum, v)| *sum += v);
             largest = largest.max(tree.max_radiance());
         }

@@ -6,8 +6,8 @@ use std::sync::{
 
 use durer_core::math::Point2;
 
-use super::{Gather, Job, Progress, TILE, adaptive, crew, film_value, lock, pass};
-use crate::{Contribution, PathRay, integrator::Output, probe::Counters};
+use super::{Gather, Job, Progress, TILE, TileDone, adaptive, crew, lock, pass, pass::Eye};
+use crate::{Contribution, integrator::Output, probe::Counters};
 
 /// A sample that was taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Taken {
 
 /// The beginning of a sample.
 struct Start {
-    ray: PathRay,
+    eye: Eye,
     film: Point2,
     weight: Option<f32>,
 }
@@ -38,16 +38,16 @@ struct Start {
 impl Job<'_> {
     /// The beginning of a sample that is not adaptive.
     fn start(&self, pixel: [u32; 2], sample: u32) -> Start {
-        let (ray, weight) = self.eye(pixel, sample);
-        let (film, _) = pass::place(&self.scene.view, self.settings.nesting, pixel, &ray.sampler);
-        Start { ray, film, weight: Some(weight) }
+        let (eye, weight) = self.eye(pixel, sample);
+        let (film, _) = pass::place(&self.scene.view, self.settings.nesting, pixel, &eye.ray.sampler);
+        Start { eye, film, weight: Some(weight) }
     }
 
     fn starts(&self, pixel: [u32; 2]) -> Box<dyn Iterator<Item = Start> + '_> {
         match self.adaptive() {
             Some(how) => {
                 let start = |place| Start {
-                    ray: adaptive::eye(self, place),
+                    eye: adaptive::eye(self, place),
                     film: adaptive::film_of(place),
                     weight: None,
                 };
@@ -58,22 +58,18 @@ impl Job<'_> {
     }
 
     fn taken(&self, sample: u32, start: Start, gather: Gather) -> Taken {
-        let Start { ray, film, weight } = start;
-        let (view, cx, mut out) = (&self.scene.view, self.cx(), Contribution::default());
-        let lens = pass::on_lens(view, self.settings.nesting, &ray.sampler);
-        let mut counters = gather.counters();
-        match &mut counters {
-            Some(counters) => self.integrator.count(&cx, ray, &mut out, counters),
-            None => self.integrator.sample(&cx, ray, &mut out),
-        }
+        let Start { eye, film, weight } = start;
+        let view = &self.scene.view;
+        let lens = pass::on_lens(view, self.settings.nesting, &eye.ray.sampler);
+        let mut done = TileDone { counters: gather.counters(), ..TileDone::default() };
         Taken {
             sample,
-            rgb: film_value(&cx, &out),
+            rgb: self.take(&self.cx(&eye.ray.sampler), &eye, &mut Contribution::default(), &mut done),
             weight,
             film: [film.x, film.y],
-            lens: lens.map(|u| view.camera.lens().at(u)),
-            time: ray.ray.time,
-            counters,
+            lens: lens.map(|u| view.on_lens(film, u)),
+            time: eye.ray.ray.time,
+            counters: done.counters,
         }
     }
 
@@ -150,7 +146,6 @@ impl Job<'_> {
     fn quarters(&self, small: [u32; 2], size: [u32; 2]) -> Option<[f32; 3]> {
         let view = &self.scene.view;
         let full = [view.width, view.height];
-        let cx = self.cx();
         let mut out = Contribution::default();
         let mut found = Vec::new();
         for [dx, dy] in [[1, 1], [3, 1], [1, 3], [3, 3]] {
@@ -158,16 +153,15 @@ impl Job<'_> {
                 let place = (u64::from(4 * small[i] + d) * u64::from(full[i])) / (4 * u64::from(size[i]));
                 (place as u32).min(full[i] - 1)
             };
-            let ray = self.eye([at(0, dx), at(1, dy)], 0).0;
-            self.integrator.sample(&cx, ray, &mut out);
-            found.extend(film_value(&cx, &out));
+            let (eye, _) = self.eye([at(0, dx), at(1, dy)], 0);
+            found.extend(self.value_of(&eye, &mut out));
         }
         let n = found.len() as f32;
         match self.integrator.output() {
             Output::Radiance => {
                 (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n))
             }
-            Output::Data(_) => found.first().copied(),
+            Output::Data(_) | Output::Survey(_) => found.first().copied(),
         }
     }
 }

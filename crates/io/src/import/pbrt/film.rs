@@ -7,7 +7,7 @@ const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> 
     ParamSpec::new(name, ParamType::Int, ParamDefault::Int(default), doc).range(1.0, most)
 }
 
-/// Parameters of every film; `gbuffer` and `spectral` add a few.
+/// Parameters of every film; `gbuffer` and `spectral` add a few. In a spectral film rays carry wavelengths.
 pub(super) const FILM: Schema = Schema {
     name: "rgb",
     aliases: &["gbuffer", "spectral"],
@@ -16,12 +16,14 @@ pub(super) const FILM: Schema = Schema {
         int("xresolution", 1280, 1e6, "pixels per row"),
         int("yresolution", 720, 1e6, "rows"),
         ParamSpec::new("filename", ParamType::File, ParamDefault::Text("pbrt.exr"), "shown by info"),
-        ParamSpec::float("diagonal", 35.0, "film size, used by the realistic camera").unit("mm"),
+        ParamSpec::float("diagonal", 35.0, "film size, used by the realistic camera")
+            .unit("mm")
+            .range(0.0, 1e6),
         ParamSpec::new("savefp16", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
         ParamSpec::new("cropwindow", ParamType::Floats, ParamDefault::Unset, "not supported yet"),
         ParamSpec::new("pixelbounds", ParamType::Ints, ParamDefault::Unset, "not supported yet"),
         ParamSpec::new("sensor", ParamType::Text, ParamDefault::Text("cie1931"), "only the default"),
-        ParamSpec::float("iso", 100.0, "only the default"),
+        ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").range(0.0, f32::INFINITY),
         ParamSpec::float("exposuretime", 1.0, "only the default"),
         ParamSpec::float("whitebalance", 0.0, "only the default").unit("K"),
         ParamSpec::float("scale", 1.0, "only the default"),
@@ -32,7 +34,7 @@ pub(super) const FILM: Schema = Schema {
             ParamDefault::Text("camera"),
             "gbuffer: no effect",
         ),
-        int("nbuckets", 16, 1e6, "spectral: no effect"),
+        int("nbuckets", 16, 1e6, "spectral: no effect, the picture has three channels"),
         ParamSpec::float("lambdamin", 360.0, "spectral: no effect").unit("nm"),
         ParamSpec::float("lambdamax", 830.0, "spectral: no effect").unit("nm"),
     ],
@@ -97,23 +99,31 @@ pub(super) fn film(
             FILM.aliases.iter().copied().chain([FILM.name]),
         );
     }
-    let args = Args::check(node, FILM, &[], diagnostics);
+    let mut args = Args::check(node, FILM, &[], diagnostics);
+    film.spectral = node.kind == "spectral";
     film.width = u32::try_from(args.int("xresolution")).ok();
     film.height = u32::try_from(args.int("yresolution")).ok();
+    for (name, into) in [("diagonal", &mut film.diagonal_mm), ("iso", &mut film.iso)] {
+        *into = args.is_set(name).then(|| args.float(name));
+        if *into == Some(0.0) {
+            args.error(name, format!("\"{name}\" is 0, expected more than 0"));
+        }
+    }
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
     let crop = args.floats("cropwindow");
     let unusual = [
         ("cropwindow", !crop.is_empty() && crop != [0.0, 1.0, 0.0, 1.0]),
         ("pixelbounds", !args.ints("pixelbounds").is_empty() && !whole(&args)),
         ("sensor", args.text("sensor") != "cie1931"),
-        ("iso", args.float("iso") != 100.0),
         ("exposuretime", args.float("exposuretime") != 1.0),
         ("whitebalance", args.float("whitebalance") != 0.0),
         ("scale", args.float("scale") != 1.0),
         ("maxcomponentvalue", args.optional_float("maxcomponentvalue").is_some()),
     ];
-    let mut vain: Vec<_> =
-        FILM.aliases.iter().filter(|a| **a == node.kind).map(|a| (*a, node.at.clone())).collect();
+    let mut vain = Vec::new();
+    if node.kind == "gbuffer" {
+        vain.push(("gbuffer", node.at.clone()));
+    }
     if args.is_sound() {
         let at = |name: &str| node.params.get(name).map_or(Location::None, |p| p.at.clone());
         vain.extend(unusual.iter().filter(|u| u.1).map(|(name, _)| (*name, at(name))));

@@ -33,9 +33,9 @@ use std::{
 
 use durer_core::{math::Point2, sampling::Sampler};
 
-use super::{BadSample, Job, Rendered, TILE, TileDone, Watch, crew, lock, pass};
+use super::{BadSample, Job, Rendered, TILE, TileDone, Watch, crew, lock, pass, pass::Eye};
 use crate::{
-    Contribution, PathRay,
+    Contribution,
     film::{Pixel, Tile},
     probe::Counters,
 };
@@ -119,9 +119,9 @@ impl Splits {
 }
 
 /// The eye ray through a place of the picture.
-pub(super) fn eye(job: &Job<'_>, place: [u32; 2]) -> PathRay {
+pub(super) fn eye(job: &Job<'_>, place: [u32; 2]) -> Eye {
     let sampler = Sampler::new(job.settings.sampler, job.settings.seed, place, 0, 1);
-    PathRay::eye(pass::ray_at(&job.scene.view, job.settings.nesting, film_of(place), &sampler), sampler)
+    pass::eye_at(&job.scene.view, job.settings.nesting, film_of(place), &sampler)
 }
 
 /// A place in pixels.
@@ -137,7 +137,10 @@ fn value(
     done: &mut TileDone,
     bad: BadSample,
 ) -> [f32; 3] {
-    let value = job.take(&job.cx(), eye(job, place), out, done).unwrap_or_default();
+    let eye = eye(job, place);
+    let cx = job.cx(&eye.ray.sampler);
+    let value = job.take(&cx, &eye, out, done).unwrap_or_default();
+    job.splat(&cx, out, done, bad);
     if value.iter().all(|v| v.is_finite()) {
         return value;
     }
@@ -174,7 +177,7 @@ pub(super) fn render(job: &Job<'_>, how: &Adaptive, watch: &Watch<'_>, rendered:
             let (pixels, done) = refine.tile(tile, watch, canvas);
             let mut shared = lock(&shared);
             shared.film.write(tile, &pixels);
-            shared.take(&done);
+            shared.take(job, &done);
             drop(shared);
             watch.progress.advance(tile.area(), done.rays);
         },

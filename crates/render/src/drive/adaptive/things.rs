@@ -118,7 +118,7 @@ fn bounds(mesh: &Mesh) -> Bounds3 {
 /// The ray through a point of the picture from one point of the lens, at one moment.
 fn ray(job: &Job<'_>, film: Point2) -> Ray {
     let sampler = Sampler::new(job.settings.sampler, job.settings.seed, [u32::MAX; 2], 0, 1);
-    pass::ray_at(&job.scene.view, job.settings.nesting, film, &sampler)
+    pass::eye_at(&job.scene.view, job.settings.nesting, film, &sampler).ray.ray
 }
 
 /// What holds all rays through a tile: all that lies on them at `t` is nearer to the axis than `at_zero + t * slope`.
