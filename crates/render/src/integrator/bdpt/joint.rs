@@ -78,7 +78,11 @@ impl<P: Probe> EyeWalk<'_, P> {
             return Spectrum::BLACK;
         }
         let is_first = index == 0 && particle.end.is_sharp();
-        let sent = other.sent(-d, is_first);
+        let mut sent = other.sent(-d, is_first);
+        if vertex.path.is_collapsed && other.path.is_collapsed {
+            // Both parts count their one wavelength for all four: once is enough.
+            sent = sent * 0.25;
+        }
         let cos = other.s.surface.n_g.dot(d).abs();
         let seen = f * (cos * wi.z.abs() * there / (distance * distance));
         if sent.is_black() || !(seen * sent).is_finite() {

@@ -144,6 +144,10 @@ impl<P: Probe> Walk<'_, P> {
             Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
             Boundary::Own => {}
         }
+        if crossing.disperses && !ray.is_collapsed {
+            ray.is_collapsed = true;
+            return Some((s, crossing, left * self.cx.basis.collapse()));
+        }
         Some((s, crossing, left))
     }
 
