@@ -201,7 +201,7 @@ fn a_room_of_pbrt_is_nearly_the_same_picture_as_glb() {
     eprintln!("room: {apart:.5} {ratio:.5} {warnings:?}");
     // Noise of other random numbers, the rim of the spot, Schlick's rise of the metal.
     assert!(apart < 0.05 && (ratio - 1.0).abs() < 0.02, "{apart} {ratio} {warnings:?}");
-    assert!(warnings.iter().any(|w| w.contains("round")), "{warnings:?}");
+    assert!(warnings.iter().any(|w| w.contains("curved")), "{warnings:?}");
 }
 
 #[test]
@@ -216,7 +216,7 @@ fn every_builtin_scene_can_be_written_as_glb() {
 fn what_gltf_has_no_words_for_is_named() {
     let (_, warnings) = as_glb("whitted", &small());
     let all = warnings.join("\n");
-    for word in ["has no end", "round", "checks", "\"classic\""] {
+    for word in ["has no end", "curved", "checks", "\"classic\""] {
         assert!(all.contains(word), "{word}: {all}");
     }
     let (_, warnings) = as_glb("cook", &small());
