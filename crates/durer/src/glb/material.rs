@@ -150,7 +150,7 @@ impl Writer<'_> {
         let most = |args: &mut Args<'_>, name: &str| args.color(name).rgb.into_iter().fold(0.0f32, f32::max);
         let [diffuse, mirrored, through] =
             ["diffuse", "reflection", "transmission"].map(|name| most(args, name));
-        let kind = if through > diffuse.max(mirrored) {
+        let kind = if through > 0.0 && through >= diffuse.max(mirrored) {
             made.pbr("metallicFactor", 0.0);
             made.pbr("roughnessFactor", 0.0);
             made.base(args.color("transmission").rgb);
