@@ -237,9 +237,9 @@ fn what_gltf_has_no_words_for_is_named() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plane.pbrt");
-    let plane = "Camera \"spherical\"\nWorldBegin\nLightSource \"infinite\"\nMaterial \"mix\" \"string materials\" [ \"a\" \"b\" ]\n\
+    let plane = "Camera \"spherical\"\nWorldBegin\nLightSource \"infinite\"\n\
                  MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"mirror\"\n\
-                 Shape \"plane\" \"string name\" \"ground\"\n";
+                 Material \"mix\" \"string materials\" [ \"a\" \"b\" ]\nShape \"plane\" \"string name\" \"ground\"\n";
     fs::write(&file, plane).expect("written");
     let (_, warnings) = as_glb(file.to_str().expect("text"), &small());
     let all = warnings.join("\n");
