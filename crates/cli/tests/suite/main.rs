@@ -1,6 +1,7 @@
 //! The built binary, run in folders of its own.
 
 mod complaints;
+mod convert;
 mod cost;
 mod environment;
 mod frames;

@@ -7,6 +7,7 @@ pub(crate) mod bin;
 mod camera;
 mod light;
 mod material;
+mod principled;
 mod shape;
 mod texture;
 

@@ -103,25 +103,31 @@ impl Writer<'_> {
                 }
             }
             Outline::Sphere { .. } | Outline::Curved => {
-                let number = (GRID * GRID * 2).to_string();
-                self.warn(format!(
-                    "\"{called}\" is round: it becomes {number} triangles, without texture coordinates"
-                ));
-                let edge = GRID + 1;
-                for j in 0..edge {
-                    for i in 0..edge {
+                let mut grid = Vec::new();
+                for j in 0..=GRID {
+                    for i in 0..=GRID {
                         let u = [i, j].map(|i| (i as f32 / GRID as f32).min(1.0f32.next_down()));
                         let Some(at) = shape.by_area(Point2::new(u[0], u[1])) else { return };
-                        put(at.p, at.n);
+                        grid.push((at.p, at.n));
                     }
                 }
+                let edge = GRID + 1;
+                if let Some(corners) = flat(&grid) {
+                    corners.into_iter().for_each(|(p, n)| put(p, n));
+                    add_square(mesh, [0, 1, 2, 3].map(|i| first + i));
+                    return;
+                }
+                grid.into_iter().for_each(|(p, n)| put(p, n));
                 for j in 0..GRID {
                     for i in 0..GRID {
                         let a = first + j * edge + i;
-                        let corners = [a, a + 1, a + edge + 1, a + edge];
-                        add_square(mesh, corners);
+                        add_square(mesh, [a, a + 1, a + edge + 1, a + edge]);
                     }
                 }
+                let number = 2 * GRID * GRID;
+                self.warn(format!(
+                    "\"{called}\" is curved: it becomes {number} triangles, without texture coordinates"
+                ));
             }
             Outline::Infinite => {
                 self.warn(format!("\"{called}\" has no end: a square of {} m of it is kept", 2.0 * PLANE));
@@ -190,6 +196,33 @@ impl Writer<'_> {
         let indices = bin.indices(mesh.indices.iter().flat_map(|t| turn(*t)));
         json!({ "attributes": attributes, "indices": indices })
     }
+}
+
+/// A point and its normal.
+type Place = (DVec3, DVec3);
+
+/// The corners of a grid of points that lies in a plane and has straight edges.
+fn flat(grid: &[Place]) -> Option<[Place; 4]> {
+    let edge = GRID as usize + 1;
+    let corners = [0, edge - 1, edge * edge - 1, edge * (edge - 1)].map(|i| grid[i]);
+    let [a, b, c, d] = corners.map(|(p, _)| p);
+    let size = (c - a).length().max((d - b).length());
+    let n = (c - a).cross(d - b).normalize_or_zero();
+    // Points are chosen in single precision.
+    let near = 1e-5 * size;
+    let is_on = |p: DVec3, from: DVec3, to: DVec3| {
+        let along = (to - from).normalize_or_zero();
+        (p - from).cross(along).length() <= near
+    };
+    let in_plane = |(p, _): &Place| (*p - a).dot(n).abs() <= near;
+    let straight = (0..edge).all(|i| {
+        let last = edge - 1;
+        is_on(grid[i].0, a, b)
+            && is_on(grid[i * edge + last].0, b, c)
+            && is_on(grid[last * edge + i].0, d, c)
+            && is_on(grid[i * edge].0, a, d)
+    });
+    (n != DVec3::ZERO && straight && grid.iter().all(in_plane)).then_some(corners)
 }
 
 /// Two triangles that are seen counter-clockwise from where their normals point; none where they have no area.
