@@ -3,6 +3,7 @@
 //! A new shape is one file here and one line in [`SHAPES`].
 
 mod bilinear;
+mod curve;
 mod disk;
 pub(crate) mod flat;
 pub mod loopsubdiv;
@@ -22,6 +23,7 @@ use durer_core::{
 use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
 pub use bilinear::{BilinearMesh, Patch};
+pub use curve::{Curve, StrandForm, Strands};
 pub use disk::Disk;
 pub use loopsubdiv::LoopSubdiv;
 pub use mesh::mesh_surface;
@@ -105,6 +107,8 @@ pub enum Geometry {
     Mesh(Arc<Mesh>),
     /// Anything else: one shape, or the parts of one.
     Shapes(Vec<Arc<dyn Shape>>),
+    /// Curves, which the kernel intersects itself.
+    Strands(Arc<Strands>),
 }
 
 impl Geometry {
@@ -115,11 +119,12 @@ impl Geometry {
 }
 
 /// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["curve", "cylinder"];
+pub const NOT_YET: &[&str] = &["cylinder"];
 
 /// All kinds of shape.
 pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<BilinearMesh>(),
+    Entry::of::<Curve>(),
     Entry::of::<Disk>(),
     Entry::of::<LoopSubdiv>(),
     Entry::of::<Plane>(),

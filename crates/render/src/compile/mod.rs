@@ -11,6 +11,7 @@ mod kept;
 mod lights;
 mod nodes;
 mod report;
+mod strands;
 
 use std::{
     sync::Arc,
