@@ -106,7 +106,8 @@ fn colours_that_light_meets_once_are_the_same_in_both_modes() {
         ("\"rgb reflectance\" [0.8 0.8 0.8]", "\"blackbody L\" 3000"),
         (red, "\"rgb L\" [1 1 1]"),
     ] {
-        let of = |carried| mean(&small("Integrator \"path\"", &world(reflectance, light), &carrying(carried)));
+        let of =
+            |carried| mean(&small("Integrator \"path\"", &world(reflectance, light), &carrying(carried)));
         let (rgb, waves) = (of(Carried::Rgb), of(Carried::Wavelengths));
         assert!((0..3).all(|i| (rgb[i] - waves[i]).abs() < 5e-3), "{reflectance} {light}: {rgb:?} {waves:?}");
     }
@@ -126,7 +127,8 @@ fn colours_that_light_meets_once_are_the_same_in_both_modes() {
 fn threads_change_no_bit_of_wavelengths() {
     let bits = |threads: usize| {
         let imported = builtin::find("prism").expect("a scene").import();
-        let options = Options { threads: Some(threads), scale: Some(0.05), samples: Some(4), ..Options::default() };
+        let options =
+            Options { threads: Some(threads), scale: Some(0.05), samples: Some(4), ..Options::default() };
         durer_tests::bits(&render(&prepared(imported, &options)))
     };
     assert_eq!(bits(1), bits(3));
@@ -212,7 +214,10 @@ fn a_prism_turns_each_wavelength_as_its_index_says() {
         assert!(weight > 0.0, "{nm} nm: nothing at column {expected:.1}");
         let found = sum / weight;
         let degree = f64::from(width) / (2.0 * half.atan().to_degrees());
-        assert!((found - expected).abs() < 0.12 * degree, "{nm} nm: column {found:.2}, expected {expected:.2}");
+        assert!(
+            (found - expected).abs() < 0.12 * degree,
+            "{nm} nm: column {found:.2}, expected {expected:.2}"
+        );
     }
 }
 
@@ -279,7 +284,8 @@ fn the_rainbow_stands_where_the_index_of_water_has_it() {
     assert!((of_blue - bow(water(455.0))).abs() < 0.6, "blue at {of_blue}, expected {}", bow(water(455.0)));
     assert!(of_red > of_blue + 0.3, "red {of_red}, blue {of_blue}");
     // Beyond the bow it is darker than within (Alexander's dark band).
-    let average = |bins: &[f64], from: usize, to: usize| bins[from..to].iter().sum::<f64>() / (to - from) as f64;
+    let average =
+        |bins: &[f64], from: usize, to: usize| bins[from..to].iter().sum::<f64>() / (to - from) as f64;
     let bright = red[4 * 38..4 * 46].iter().copied().fold(0.0, f64::max);
     let outside = average(&red, 4 * 44, 4 * 46);
     assert!(bright > 2.0 * outside, "bow {bright}, outside {outside}");

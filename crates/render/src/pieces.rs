@@ -47,6 +47,8 @@ impl Scene {
                     form: Form::Shape(&*placed.shape),
                     render_from_object: placed.render_from_object,
                 })),
+                // Too fine to be drawn: rays show them.
+                Target::Strands(..) => {}
                 Target::Mover(index) => {
                     let placed = &self.movers[*index as usize];
                     let form = Form::Shape(&*placed.shape);

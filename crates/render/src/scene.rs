@@ -1,10 +1,13 @@
 //! The compiled scene: frozen, without lifetimes, ready to be asked for hits by any number of threads.
 use std::sync::{Arc, OnceLock};
 
-use durer_accel::{Accel, Hit, PrimitiveHit, UserGeometry};
+use durer_accel::{
+    Accel, Hit, PrimitiveHit, UserGeometry,
+    curve::{CurveHit, Curves},
+};
 use durer_core::{
     Id,
-    math::{Point3, Ray, Transform, Vector3},
+    math::{Normal3, Point2, Point3, Ray, Transform, Vector3},
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
@@ -12,7 +15,7 @@ use durer_model::{
     light::{Extent, Light},
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
-    texture::{Filters, Texture},
+    texture::{Filters, Footprint, Texture},
 };
 use durer_scene::Mesh;
 
@@ -46,12 +49,17 @@ pub(crate) enum Target {
     Mover(u32),
     /// A mesh that is used several times, or moves, in its own space.
     Mesh(Id<Object>, Arc<Mesh>),
+    /// Segments of curves, with the object of each and which part of it that is.
+    Strands(Owners, Arc<Curves>),
 }
+
+/// The object of each segment, and which part of it that is.
+pub(crate) type Owners = Arc<[(Id<Object>, u32)]>;
 
 impl Target {
     /// Whether it is no mesh.
     fn is_shape(&self) -> bool {
-        matches!(self, Self::Shapes | Self::Mover(_))
+        matches!(self, Self::Shapes | Self::Mover(_) | Self::Strands(..))
     }
 }
 
@@ -207,6 +215,7 @@ impl Scene {
                 let shape = &self.movers[*index as usize];
                 (shape.object, shape.part)
             }
+            Target::Strands(owners, _) => owners[hit.prim as usize],
         }
     }
 
@@ -237,7 +246,34 @@ impl Scene {
                 let to_render = self.accel.instance_transform(hit.instance, ray.time);
                 shape_surface(&self.movers[*index as usize], &to_render.inverse().ray(ray), &to_render)
             }
+            Target::Strands(owners, curves) => {
+                let object = owners[hit.prim as usize].0;
+                (object, self.strand_surface(curves, object, ray, hit))
+            }
         }
+    }
+
+    /// The place of a hit on a curve, in render space.
+    fn strand_surface(&self, curves: &Curves, object: Id<Object>, ray: &Ray, hit: &Hit) -> Surface {
+        let to_render = self.accel.instance_transform(hit.instance, ray.time);
+        let found = CurveHit { t: hit.t, u: hit.u, v: hit.v, n_g: hit.n_g };
+        let place = curves.surface(hit.prim, &to_render.inverse().ray(ray), &found);
+        let n = Normal3::from(hit.n_g);
+        let uv = Point2::new(hit.u, 0.5 * (hit.v + 1.0));
+        let own = Surface {
+            p: place.p,
+            p_error: place.p_error,
+            n_g: n,
+            n_s: n,
+            uv,
+            second_uv: uv,
+            dpdu: place.dpdu,
+            // By uv, which crosses the strand once.
+            dpdv: place.dpdv * 2.0,
+            vertex_color: [1.0; 4],
+            footprint: Footprint::POINT,
+        };
+        own.placed(&to_render, self.object(object).reverse_orientation)
     }
 
     /// Whether an instance of the kernel consists of triangles.
@@ -254,7 +290,7 @@ impl Scene {
                 let to_render = self.accel.instance_transform(hit.instance, time);
                 Some(corners(mesh).map(|p| to_render.point(p)))
             }
-            Target::Shapes | Target::Mover(_) => None,
+            Target::Shapes | Target::Mover(_) | Target::Strands(..) => None,
         }
     }
 

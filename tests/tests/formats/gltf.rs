@@ -159,7 +159,7 @@ fn part(pointer: &str, value: &str) -> Value {
     document
 }
 
-pub fn write(out: &mut String) {
+pub(crate) fn write(out: &mut String) {
     let bench = Bench::new();
     let mut tried: Vec<(String, Outcome)> = Vec::new();
     let try_it = |document: &Value| bench.try_file("x.gltf", document.to_string());

@@ -117,7 +117,7 @@ const PROPERTIES: &[&str] = &[
     "edge",
 ];
 
-pub fn write(out: &mut String) {
+pub(crate) fn write(out: &mut String) {
     let bench = Bench::new();
     out.push_str("\n## Wavefront OBJ and MTL\n\n");
     let face = "f 1 2 3\n";

@@ -92,7 +92,7 @@ impl Family {
     }
 }
 
-pub fn write(out: &mut String) {
+pub(crate) fn write(out: &mut String) {
     let bench = Bench::new();
     out.push_str("\n## pbrt-v4\n");
     let (families, directives) = LIST.split_once("# Directives\n").expect("directives");

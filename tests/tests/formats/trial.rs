@@ -18,7 +18,7 @@ const LENS: &str = "# radius thickness index aperture\n60 4 1.5 20\n-60 4 1 20\n
 
 /// What became of a feature.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// Nothing was said.
     Read,
     /// It is read, in another way or in part.
@@ -28,13 +28,13 @@ pub enum Outcome {
 }
 
 /// A folder for trials.
-pub struct Bench {
+pub(crate) struct Bench {
     folder: tempfile::TempDir,
 }
 
 impl Bench {
     /// With the files that features may ask for.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let write =
             |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).expect("written");
@@ -49,12 +49,12 @@ impl Bench {
     }
 
     /// Where a file of this name lies.
-    pub fn path(&self, name: &str) -> std::path::PathBuf {
+    pub(crate) fn path(&self, name: &str) -> std::path::PathBuf {
         self.folder.path().join(name)
     }
 
     /// Opens a file of this name and content.
-    pub fn try_file(&self, name: &str, content: impl AsRef<[u8]>) -> Outcome {
+    pub(crate) fn try_file(&self, name: &str, content: impl AsRef<[u8]>) -> Outcome {
         let path = self.folder.path().join(name);
         std::fs::write(&path, content).expect("written");
         let outcome = opened(&path);
@@ -87,7 +87,7 @@ fn opened(path: &Path) -> Outcome {
 }
 
 /// A line of a list: a feature and what was said about it.
-pub fn remark(feature: &str, outcome: &Outcome) -> Option<String> {
+pub(crate) fn remark(feature: &str, outcome: &Outcome) -> Option<String> {
     let (word, message) = match outcome {
         Outcome::Read => return None,
         Outcome::Changed(message) => ("", message),

@@ -78,6 +78,10 @@ impl Writer<'_> {
                 }
                 vec![Arc::new(all)]
             }
+            Some(Geometry::Strands(_)) => {
+                self.warn(format!("\"{called}\" is left out: glTF has no curves"));
+                Vec::new()
+            }
             None => Vec::new(),
         }
     }

@@ -7,8 +7,8 @@ use durer_core::{
 };
 
 use super::{
-    Blurred, BranchKind, Branches, Draws, Gloss, Glossy, GlossyView, Highlight, Interface, Layered, Matte,
-    Phong, Sheet, Tilted,
+    Blurred, BranchKind, Branches, Draws, Gloss, Glossy, GlossyView, Hair, Highlight, Interface, Layered,
+    Matte, Phong, Sheet, Tilted,
 };
 
 /// One way in which a surface scatters light.
@@ -54,6 +54,8 @@ pub enum Lobe {
     Tilted(Tilted),
     /// Rough transmission through something thin.
     Sheet(Sheet),
+    /// A strand of hair, around which light is scattered.
+    Hair(Hair),
     /// Light goes straight on: partial coverage, or transmission through something thin.
     PassThrough {
         /// Share of light that passes.
@@ -84,6 +86,7 @@ impl Lobe {
             Self::Layered(layered) => layered.eval(wo, wi),
             Self::Tilted(tilted) => tilted.eval(wo, wi),
             Self::Sheet(sheet) => sheet.eval(wo, wi),
+            Self::Hair(hair) => hair.eval(wo, wi),
             Self::Diffuse { .. }
             | Self::Behind { .. }
             | Self::Ambient { .. }
@@ -98,6 +101,7 @@ impl Lobe {
             | Self::Ambient { .. }
             | Self::Highlight(_)
             | Self::Matte(_)
+            | Self::Hair(_)
             | Self::Behind { .. } => {}
             Self::Glossy(_) | Self::Phong(_) | Self::Layered(_) => {
                 let weight = self.look().map_or(Spectrum::BLACK, |glossy| glossy.branch_weight(wo));
@@ -207,6 +211,7 @@ impl Lobe {
                 narrow + layered.albedo()
             }
             Self::Tilted(tilted) => tilted.glossy.reflectance.ends().0 * tilted.glossy.scale,
+            Self::Hair(hair) => hair.tint(),
             Self::Sheet(sheet) => sheet.glossy().reflectance.ends().0 * sheet.glossy().scale,
             Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
@@ -232,6 +237,7 @@ impl Lobe {
                 Self::Tilted(Tilted { glossy: Glossy { scale: t.glossy.scale * by, ..t.glossy }, ..t })
             }
             Self::Sheet(sheet) => Self::Sheet(sheet.scaled(by)),
+            Self::Hair(hair) => Self::Hair(hair.scaled(by)),
             Self::PassThrough { weight } => Self::PassThrough { weight: weight * by },
         }
     }

@@ -17,6 +17,7 @@ mod fresnel;
 mod ggx;
 mod gloss;
 mod glossy;
+mod hair;
 mod highlight;
 mod interface;
 mod layered;
@@ -48,6 +49,7 @@ pub use fresnel::{
 };
 pub use gloss::Gloss;
 pub use glossy::{Glossy, SMOOTH};
+pub use hair::{Hair, Strand};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use layered::{Below, Cloud, Layered, mirrored_by_layers};
@@ -165,7 +167,7 @@ impl Bsdf {
     /// True if light from the other side is scattered to this one.
     pub fn is_frosted(&self) -> bool {
         self.lobes().any(|lobe| match lobe {
-            Lobe::Blurred(_) | Lobe::Behind { .. } | Lobe::Sheet(_) => true,
+            Lobe::Blurred(_) | Lobe::Behind { .. } | Lobe::Sheet(_) | Lobe::Hair(_) => true,
             Lobe::Matte(matte) => matte.is_behind(),
             _ => false,
         })
@@ -186,6 +188,7 @@ impl Bsdf {
                     | Lobe::Layered(_)
                     | Lobe::Tilted(_)
                     | Lobe::Sheet(_)
+                    | Lobe::Hair(_)
             )
         })
     }
@@ -199,6 +202,7 @@ impl Bsdf {
             Lobe::Diffuse { albedo } | Lobe::Behind { albedo } => Some(*albedo),
             Lobe::Matte(matte) => Some(matte.albedo()),
             Lobe::Layered(layered) => Some(layered.albedo()),
+            Lobe::Hair(hair) => Some(hair.tint()),
             _ => None,
         };
         let own = self.lobes().filter_map(classic).reduce(|a, b| a + b);

@@ -220,6 +220,7 @@ impl Lobe {
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
             Self::Tilted(tilted) => tilted.directional_albedo(wo).mean() * tilted.glossy.scale,
             Self::Sheet(sheet) => sheet.passed(wo).mean(),
+            Self::Hair(hair) => hair.strength(wo),
             Self::Mirror { weight } | Self::PassThrough { weight } => weight.mean(),
             Self::Gloss(gloss) => gloss.weight.mean(),
             Self::Interface(interface) => interface.strength(wo),
@@ -268,6 +269,13 @@ impl Lobe {
             Self::Glossy(glossy) if glossy.spreads() => glossy.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Sheet(sheet) => sheet.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Hair(hair) => {
+                let wi = hair.draw(wo, choice, u);
+                let pdf = hair.pdf(wo, wi);
+                let weight = hair.eval(wo, wi) * (wi.z.abs() / pdf);
+                Some(OfLobe { kind: on_side(wo, wi), wi, weight, pdf: Some(pdf), chance: 1.0 })
+                    .filter(|own| pdf > 0.0 && own.weight.is_finite())
+            }
             Self::Gloss(gloss) => Some(OfLobe::drawn(&gloss.draw(wo, u))),
             Self::Blurred(blurred) => blurred.scatter(wo, choice, u),
             Self::Ambient { .. }
@@ -311,6 +319,7 @@ impl Lobe {
             Self::Gloss(gloss) => gloss.pdf(wo, wi),
             Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.pdf(wo, wi),
             Self::Sheet(sheet) => sheet.pdf(wo, wi),
+            Self::Hair(hair) => hair.pdf(wo, wi),
             Self::Blurred(blurred) => blurred.density(wo, wi),
             Self::Diffuse { .. }
             | Self::Matte(_)

@@ -51,6 +51,7 @@ impl Lobe {
             | Self::Phong(_)
             | Self::Layered(_)
             | Self::Tilted(_)
+            | Self::Hair(_)
             | Self::Mirror { .. } => Spectrum::BLACK,
         }
     }

@@ -61,6 +61,7 @@ impl Lobe {
             Self::Layered(_) => "layered",
             Self::Tilted(_) => "tilted",
             Self::Sheet(_) => "sheet",
+            Self::Hair(_) => "hair",
             Self::PassThrough { .. } => "clear",
         }
     }
@@ -97,6 +98,7 @@ impl Lobe {
                 LobeView { transmittance: self.tint(), alpha: Some(sheet.glossy().facets.alpha()), ..none }
             }
             Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
+            Self::Hair(hair) => LobeView { reflectance: hair.tint(), ..none },
             Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
             Self::Layered(_) | Self::Tilted(_) => LobeView {
                 reflectance: self.tint(),

@@ -10,6 +10,7 @@ mod detail;
 mod dielectric;
 mod diffuse;
 mod diffusetransmission;
+mod hair;
 mod interface;
 mod mask;
 mod mirror;
@@ -34,6 +35,7 @@ pub use self::{
     dielectric::Dielectric,
     diffuse::Diffuse,
     diffusetransmission::DiffuseTransmission,
+    hair::Hair,
     interface::Interface,
     mask::Mask,
     mirror::Mirror,
@@ -101,13 +103,13 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<ThinDielectric>(),
     Entry::of::<DiffuseTransmission>(),
     Entry::of::<Phong>(),
+    Entry::of::<Hair>(),
     Entry::of::<Mix>(),
     Entry::of::<Mask>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
-pub const NOT_YET: &[(&str, &str)] =
-    &[("hair", "diffuse"), ("measured", "diffuse"), ("subsurface", "diffuse")];
+pub const NOT_YET: &[(&str, &str)] = &[("measured", "diffuse"), ("subsurface", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)

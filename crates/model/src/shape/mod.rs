@@ -4,6 +4,7 @@
 
 mod bilinear;
 mod chord;
+mod curve;
 mod cylinder;
 mod disk;
 pub(crate) mod flat;
@@ -24,6 +25,7 @@ use durer_core::{
 use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
 pub use bilinear::{BilinearMesh, Patch};
+pub use curve::{Curve, StrandForm, Strands};
 pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use loopsubdiv::LoopSubdiv;
@@ -108,6 +110,8 @@ pub enum Geometry {
     Mesh(Arc<Mesh>),
     /// Anything else: one shape, or the parts of one.
     Shapes(Vec<Arc<dyn Shape>>),
+    /// Curves, which the kernel intersects itself.
+    Strands(Arc<Strands>),
 }
 
 impl Geometry {
@@ -117,12 +121,10 @@ impl Geometry {
     }
 }
 
-/// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["curve"];
-
 /// All kinds of shape.
 pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<BilinearMesh>(),
+    Entry::of::<Curve>(),
     Entry::of::<Cylinder>(),
     Entry::of::<Disk>(),
     Entry::of::<LoopSubdiv>(),

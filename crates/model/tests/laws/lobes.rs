@@ -2,8 +2,8 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Below, Blur, Blurred, Bounced, Cloud, Coat, Facets, Gloss, Glossy, Highlight, Interface, Layered, Lobe,
-    Matte, Phong, Reflectance, Sheen, Sheet, Split, Tilted, Under, Veil,
+    Below, Blur, Blurred, Bounced, Cloud, Coat, Facets, Gloss, Glossy, Hair, Highlight, Interface, Layered,
+    Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted, Under, Veil,
 };
 
 /// Grey of a value.
@@ -88,6 +88,12 @@ pub(super) fn sheet(alpha: f32) -> Lobe {
     Lobe::Sheet(Sheet::below(&outside, Spectrum::ONE))
 }
 
+/// A hair of this absorption and roughness, hit at `h`.
+pub(super) fn hair(sigma_a: f32, beta: [f32; 2], h: f32) -> Lobe {
+    let strand = Strand { along: Vector3::new(0.6, -0.8, 0.0), is_left: h < 0.0, h };
+    Lobe::Hair(Hair::new(&strand, grey(sigma_a), 1.55, beta, 2f32.to_radians()))
+}
+
 /// Lobes that spread, wide enough for the cells of a histogram.
 pub(super) fn spread() -> Vec<Lobe> {
     let round = Facets::round;
@@ -139,6 +145,9 @@ pub(super) fn spread() -> Vec<Lobe> {
         tilted(0.25, Vector3::new(0.36, 0.48, 0.8)),
         tilted(0.4, Vector3::new(-0.28, 0.0, 0.96)),
         sheet(0.3),
+        hair(0.0, [0.9, 0.9], 0.3),
+        hair(0.3, [0.4, 0.7], -0.8),
+        hair(1.2, [0.7, 0.35], 0.0),
     ]
 }
 
@@ -176,6 +185,7 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Matte(Matte::Under(_)) => 16,
         Lobe::Tilted(_) => 17,
         Lobe::Sheet(_) => 18,
+        Lobe::Hair(_) => 19,
     }
 }
 
@@ -184,5 +194,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..19).collect::<Vec<_>>());
+    assert_eq!(here, (0..20).collect::<Vec<_>>());
 }

@@ -205,6 +205,10 @@ fn materials_are_reciprocal_e5() {
     let mut random = Random::new(93);
     let mut kinds = 0;
     for (name, material) in stretched() {
+        // Hair attenuates by what the viewer sees (Chiang and others 2016).
+        if name.starts_with("hair") {
+            continue;
+        }
         // A walk between layers is an estimate: its lobe is tested by itself.
         if depends_on_the_view(&name) || name.starts_with("coatedconductor") {
             continue;

@@ -139,6 +139,8 @@ fn values_are_reciprocal_e5() {
             Lobe::Blurred(b) => matches!(b.blur, durer_model::bsdf::Blur::Cosine { .. }),
             // An estimate: its mean is.
             Lobe::Layered(_) => true,
+            // Attenuated by what `wo` sees (Chiang and others 2016).
+            Lobe::Hair(_) => true,
             // About a normal of its own: see below.
             Lobe::Tilted(_) => true,
             _ => false,

@@ -60,6 +60,8 @@ fn shapes() -> Vec<(&'static str, Arc<dyn Shape>)> {
             assert!(s.n_g.z == 1.0 && s.p.z == 0.5);
             None
         }
+        // The kernel's: crates/accel/tests/suite/curves.rs.
+        Geometry::Strands(_) => None,
     })
     .collect()
 }

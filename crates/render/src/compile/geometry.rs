@@ -13,12 +13,12 @@ use durer_core::{
 };
 use durer_model::{
     material::Material,
-    shape::{Geometry, Shape},
+    shape::{Geometry, Shape, Strands},
 };
 use durer_scene::{Diagnostics, Location, Mesh, SceneDesc, ShapeDesc, ShapeSource};
 use rayon::prelude::*;
 
-use super::{kept::Ground, report::mesh_bytes};
+use super::{kept::Ground, report::mesh_bytes, strands};
 use crate::{
     Object,
     scene::{PlacedShape, Target},
@@ -113,6 +113,7 @@ pub(super) struct Pending {
     pub(super) meshes: Vec<PendingMesh>,
     pub(super) shapes: Vec<PlacedShape>,
     pub(super) movers: Vec<(PlacedShape, Motion)>,
+    pub(super) strands: Vec<(Id<Object>, Arc<Strands>, Motion)>,
 }
 
 impl Pending {
@@ -159,6 +160,9 @@ pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bou
                 let finite = parts.iter().map(|part| part.bounds()).filter(Bounds3::is_finite);
                 finite
                     .fold(Bounds3::EMPTY, |all, b| all.union(Bounds3::around(b.corners().iter().map(place))))
+            }
+            (Some(Geometry::Strands(strands)), _) => {
+                Bounds3::around(strands.bounds().corners().iter().map(place))
             }
             (None, ShapeSource::Mesh(id)) => match desc.meshes.get(id.index()) {
                 Some(mesh) => around(mesh, &place),
@@ -215,6 +219,7 @@ impl Placing<'_> {
                     let parts = (0..).zip(parts);
                     parts.for_each(|(part, shape)| pending.shape(shape, (object, part), &motion));
                 }
+                Some(Geometry::Strands(strands)) => pending.strands.push((object, strands, motion)),
                 None => {}
             }
         }
@@ -256,7 +261,7 @@ impl Placing<'_> {
         pending: Pending,
         (objects, all_seen): (Arc<[Object]>, Arc<[Visibility]>),
     ) -> Result<Placed, String> {
-        let Pending { meshes, shapes, movers } = pending;
+        let Pending { meshes, shapes, movers, strands } = pending;
         let (single, several): (Vec<_>, Vec<_>) = meshes.into_iter().partition(PendingMesh::is_baked);
         let baked = bake(single);
         let placed_mesh_bytes = baked.iter().map(|(_, mesh)| mesh_bytes(mesh)).sum();
@@ -314,6 +319,14 @@ impl Placing<'_> {
             let (object, mesh, motion) = (*object, Arc::clone(mesh), motion.clone());
             targets.push(Target::Mesh(object, Arc::clone(&mesh)));
             held.push(Held { object, mesh, motion, geometry, instance, is_baked: false });
+        }
+        for strand in strands::gathered(strands) {
+            let name = |error: BuildError| format!("{}: {error}", objects[strand.objects[0].index()].name);
+            let is_filtered = strand.objects.iter().any(|object| shape_seen(seen(*object)).is_filtered);
+            let visible = Visibility { is_filtered, ..Visibility::default() };
+            let geometry = kernel.curves((*strand.curves).clone()).map_err(name)?;
+            kernel.instance_seen(geometry, strand.placement, visible).map_err(name)?;
+            targets.push(Target::Strands(strand.owners, strand.curves));
         }
         let accel = Arc::new(kernel.build().map_err(whole)?);
         let building = start.elapsed();

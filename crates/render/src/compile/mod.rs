@@ -12,6 +12,7 @@ mod lights;
 mod moved;
 mod nodes;
 mod report;
+mod strands;
 
 use std::{
     sync::Arc,

@@ -111,6 +111,10 @@ impl GeometryCounts {
                     counts.other_shapes += parts.len() as u64;
                     None
                 }
+                (ShapeSource::Node(_), Some(Geometry::Strands(strands))) => {
+                    counts.other_shapes += strands.count() as u64;
+                    None
+                }
                 (ShapeSource::Node(_), None) => None,
             };
             let Some(mesh) = mesh else { continue };

@@ -52,7 +52,10 @@ impl Emitter {
         sides: Sides,
         reversed: bool,
     ) -> Result<Self, &'static str> {
-        let form = Form::of(geometry).ok_or("an infinite shape cannot be an area light")?;
+        let form = Form::of(geometry).ok_or(match geometry {
+            Geometry::Strands(_) => "a curve cannot be an area light",
+            _ => "an infinite shape cannot be an area light",
+        })?;
         let first = track.at(f32::NEG_INFINITY);
         let areas = form.areas(&track);
         let total: f64 = areas.iter().sum();
@@ -187,6 +190,8 @@ impl Emitter {
                 looked::on_shape(&*parts[part], own)
             }
             (Geometry::Shapes(parts), Form::Mesh(_)) => looked::on_shape(&*parts[piece], own),
+            // No strand shines.
+            (Geometry::Strands(_), _) => looked::somewhere(own.0, own.1),
         };
         TextureAt { p: Point3::from_f64(p), ..at }
     }

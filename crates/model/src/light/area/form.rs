@@ -20,7 +20,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// That of `geometry`; `None` if it is infinite.
+    /// That of `geometry`; `None` if it is infinite, or points of it cannot be chosen.
     pub(super) fn of(geometry: &Geometry) -> Option<Self> {
         match geometry {
             Geometry::Mesh(mesh) => Some(match rectangle(mesh) {
@@ -36,6 +36,7 @@ impl Form {
                 }
                 Some(Self::Pieces(pieces, starts))
             }
+            Geometry::Strands(_) => None,
         }
     }
 

@@ -75,12 +75,17 @@ pub(super) fn on_shape(shape: &dyn Shape, (p, n): (DVec3, DVec3)) -> TextureAt {
         let hit = shape.intersect(&Ray { t_max: 2.0, ..ray })?;
         Some(shape.surface(&ray, &hit).texture_at())
     });
-    met.unwrap_or(TextureAt {
+    met.unwrap_or_else(|| somewhere(p, n))
+}
+
+/// A point of which no more is known.
+pub(super) fn somewhere(p: DVec3, n: DVec3) -> TextureAt {
+    TextureAt {
         uv: Point2::new(0.5, 0.5),
         second_uv: Point2::new(0.5, 0.5),
         p: Point3::from_f64(p),
         n: Normal3::from_f64(n),
         vertex_color: [1.0; 4],
         footprint: Footprint::POINT,
-    })
+    }
 }

@@ -105,6 +105,8 @@ fn place_instances(scene: &Scene, time: f32, first: &[u32], boxes: &mut [Bounds3
             Target::Shapes => continue,
             Target::Baked(_, mesh) => own(mesh),
             Target::Mesh(_, mesh) => placed().bounds(&own(mesh)),
+            // Searching each strand would take longer than its picture.
+            Target::Strands(..) => continue,
             Target::Mover(index) => placed().bounds(&scene.movers[*index as usize].shape.bounds()),
         };
     }
