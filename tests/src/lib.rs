@@ -79,7 +79,7 @@ pub const FILES: &[&str] = &[
 ];
 
 /// Whitted's integrator, Cook's in both ways to combine samples, ray casting, and the paths, for small pictures.
-pub fn settings() -> [Options; 7] {
+pub fn settings() -> [Options; 8] {
     let of = |integrator: &str, distribution: Distribution| Options {
         integrator: Some(integrator.to_owned()),
         width: Some(64),
@@ -101,6 +101,7 @@ pub fn settings() -> [Options; 7] {
         Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
         Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
         of("path", none),
+        of("volpath", none),
         of("direct", none),
         Options { max_depth: None, ..of("ambientocclusion", none) },
     ]

@@ -5,6 +5,7 @@ export type Rgb = [number, number, number];
 
 export type Kind =
   | "eye" | "shadow" | "reflection" | "refraction" | "glossy-reflection" | "glossy-refraction" | "passing"
+  | "scattered"
   | "diffuse-bounce" | "environment" | "light-sample" | "bsdf-sample" | "connection" | "photon";
 
 export interface LightFact {

@@ -22,11 +22,13 @@ pub enum Dim {
     Lobe,
     /// Whether a path goes on.
     Roulette,
+    /// How far a ray gets in a medium, and what it meets there.
+    Medium,
 }
 
 impl Dim {
     /// How many there are.
-    const COUNT: usize = 8;
+    const COUNT: usize = 9;
     /// How many sets [`Dim::in_set`] knows.
     const SETS: usize = 4;
 
@@ -81,6 +83,7 @@ impl Dim {
             Self::Light => (2, [0, 1]),
             Self::LightChoice => (2, [2, 3]),
             Self::Roulette => (3, [0, 1]),
+            Self::Medium => (3, [2, 3]),
         }
     }
 
@@ -92,7 +95,7 @@ impl Dim {
             (Self::Pixel, 0) => Some(0),
             (Self::Lens, 0) => Some(2),
             (Self::Time, 0) => Some(4),
-            (Self::Pixel | Self::Lens | Self::Time, _) | (_, 0) => None,
+            (Self::Pixel | Self::Lens | Self::Time | Self::Medium, _) | (_, 0) => None,
             (hit, n) => Some(
                 7 * usize::from(n) - 2
                     + match hit {
@@ -117,6 +120,7 @@ impl Dim {
             Self::LightChoice => "light-choice",
             Self::Lobe => "lobe",
             Self::Roulette => "roulette",
+            Self::Medium => "medium",
         }
     }
 }

@@ -14,4 +14,4 @@ pub use color::{Color, luminance};
 pub use lanes::Spectrum;
 pub use metal::{conductor, conductor_of, curve};
 pub use named::{Named, named, spectrum_names};
-pub use sampled::{HELIUM_D, Sampled, blackbody};
+pub use sampled::{HELIUM_D, Sampled, blackbody, glow};

@@ -78,15 +78,34 @@ impl Sampled {
 
 /// The colour of a black body of `kelvin`, at luminance 1 (Planck's law); black at 0 K.
 pub fn blackbody(kelvin: f32) -> Color {
+    // Relative to 550 nm, so that neither cold nor hot bodies leave the range of numbers.
+    let planck = |nm: f64| planck(kelvin, nm) - planck(kelvin, 550.0);
+    if kelvin > 0.0 { light(|nm| libm::exp(planck(nm))) } else { Color::BLACK }
+}
+
+/// The colour of a black body of `kelvin` of which the strongest wavelength sends 1, where 1 at all wavelengths has
+/// luminance 1 (pbrt-v4's `BlackbodySpectrum`): hot bodies outshine warm ones. Black at 0 K.
+pub fn glow(kelvin: f32) -> Color {
+    // Wien's law: 2.897771955e-3 m K, in nm K.
+    const STRONGEST: f64 = 2.897_771_955e6;
+    if kelvin <= 0.0 {
+        return Color::BLACK;
+    }
+    let strongest = planck(kelvin, STRONGEST / f64::from(kelvin));
+    let (mut sent, mut all) = (0.0, 0.0);
+    for nm in (RANGE.0..=RANGE.1).map(f64::from) {
+        sent += xyz(nm)[1] * libm::exp(planck(kelvin, nm) - strongest);
+        all += xyz(nm)[1];
+    }
+    blackbody(kelvin) * (sent / all) as f32
+}
+
+/// The logarithm of what a black body sends at a wavelength, up to a constant.
+fn planck(kelvin: f32, nm: f64) -> f64 {
     // h c / k, in nm K.
     const C2: f64 = 1.438_776_877e7;
-    let t = f64::from(kelvin);
-    // Relative to 550 nm, so that neither cold nor hot bodies leave the range of numbers.
-    let planck = |nm: f64| {
-        let x = C2 / (nm * t);
-        (-5.0 * libm::log(nm / 550.0) - x + C2 / (550.0 * t)) - libm::log1p(-libm::exp(-x))
-    };
-    if kelvin > 0.0 { light(|nm| libm::exp(planck(nm))) } else { Color::BLACK }
+    let x = C2 / (nm * f64::from(kelvin));
+    -5.0 * libm::log(nm / 550.0) - x - libm::log1p(-libm::exp(-x))
 }
 
 /// The colour of a share of light, given by wavelength in nm, under D65.

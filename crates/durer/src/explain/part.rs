@@ -39,6 +39,8 @@ pub enum PartKind {
     Bounce,
     /// What rays about the refracted direction bring.
     Translucency,
+    /// What rays that particles sent on bring.
+    Particles,
 }
 
 /// A part of a colour.
@@ -72,6 +74,7 @@ impl Part {
             PartKind::Gloss => "gloss rays about the mirror direction".to_owned(),
             PartKind::Bounce => "light that other surfaces hand on".to_owned(),
             PartKind::Translucency => "rays scattered through the surface".to_owned(),
+            PartKind::Particles => "light that particles hand on".to_owned(),
         }
     }
 }
@@ -166,6 +169,7 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
                 RayKind::GlossyReflection if is_matte(child) => PartKind::Bounce,
                 RayKind::GlossyReflection => PartKind::Gloss,
                 RayKind::GlossyRefraction => PartKind::Translucency,
+                RayKind::Scattered => PartKind::Particles,
             };
             parts.add(kind, light_name(prepared, child), times(rgb(child.throughput), rgb(child.result)));
         }

@@ -13,6 +13,7 @@ use crate::{
 use super::{
     document::{Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
     drawn::drawn,
+    floating::floating,
     ghost::GhostScene,
     material,
     number::{Metres, Number, Place, Rgb, rgb},
@@ -229,6 +230,7 @@ fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
         media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
+        floating: node.floating.as_ref().map(|event| floating(scene, event)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
         lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
         drawn: node.chosen.as_ref().map(drawn),
@@ -283,7 +285,7 @@ fn random(node: &TreeNode) -> Vec<Random> {
         .collect()
 }
 
-fn world(view: &View, p: Point3) -> Place {
+pub(super) fn world(view: &View, p: Point3) -> Place {
     let (exact, rounded) = (view.to_world(p), p.to_array());
     std::array::from_fn(|i| Metres::short(exact[i], rounded[i]))
 }

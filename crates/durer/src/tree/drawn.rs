@@ -39,6 +39,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
         ChosenBy::Light => "light",
         ChosenBy::Sharp => "sharp",
         ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
+        ChosenBy::Phase => "phase",
     };
     Drawn {
         from: from.to_owned(),

@@ -3,6 +3,7 @@
 //! Numbers are the shortest decimals that read back as they were. Cameras are written by the inverse of their placement,
 //! as the language has it, so that they may come back off in the last bit of a double. Nodes that shapes share are
 //! written once, as objects with instances. Paths stay relative to the folder of the original: the file belongs there.
+mod media;
 mod mesh;
 mod place;
 mod value;
@@ -68,6 +69,7 @@ pub fn text(
     for line in remarks.iter().flat_map(|remark| remark.lines()) {
         writer.line(&format!("# {line}"));
     }
+    writer.media();
     writer.options(film, camera);
     writer.line("\nWorldBegin");
     writer.textures();
@@ -165,6 +167,9 @@ impl Writer<'_> {
 
     fn camera(&mut self, camera: &CameraDesc) {
         let owner = format!("camera \"{}\"", camera.name);
+        if camera.media.is_some() {
+            self.sides(camera.media);
+        }
         self.times.frame(&camera.world_from_camera, |m| m.inverse()).write(&mut self.text);
         self.node("Camera", &camera.node, (&camera.name, &owner));
         self.line("Identity");
@@ -246,6 +251,7 @@ impl Writer<'_> {
     fn shape(&mut self, shape: &ShapeDesc) {
         let desc = self.desc;
         let owner = owner(shape);
+        self.sides(shape.media);
         if shape.reverse_orientation {
             self.line("ReverseOrientation");
         }
@@ -295,7 +301,10 @@ impl Source {
 }
 
 /// What instances of an object have in common.
-type Shared = (Source, Option<u32>, bool, Option<*const Node>, String);
+type Shared = (Source, Option<u32>, bool, Option<*const Node>, String, Sides);
+
+/// The media inside and outside.
+type Sides = Option<[Option<usize>; 2]>;
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Object(Shared);
@@ -304,6 +313,7 @@ impl Object {
     fn of(shape: &ShapeDesc) -> Self {
         let material = shape.material.map(|m: Id<NamedNode>| m.index() as u32);
         let light = shape.area_light.as_ref().map(Arc::as_ptr);
-        Self((Source::of(shape), material, shape.reverse_orientation, light, shape.name.clone()))
+        let sides = shape.media.map(|m| [m.inside, m.outside].map(|medium| medium.map(Id::index)));
+        Self((Source::of(shape), material, shape.reverse_orientation, light, shape.name.clone(), sides))
     }
 }

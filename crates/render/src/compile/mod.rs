@@ -11,6 +11,7 @@ mod kept;
 mod lights;
 mod nodes;
 mod report;
+mod sides;
 
 use std::{
     sync::Arc,
@@ -20,6 +21,7 @@ use std::{
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{
+    Volume,
     light::Light,
     material::Material,
     texture::{Filters, Texture},
@@ -111,6 +113,7 @@ fn compiled(
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
     let kept = before.kept();
     let new_textures = |nodes: &mut nodes::Builder<'_>| kept.is_none().then(|| nodes.textures());
+    let inside = nodes.insides();
     let ((new_textures, mut materials), of_textures) =
         timed(|| (new_textures(&mut nodes), nodes.materials()));
     let (ground, of_shapes) = timed(|| match kept {
@@ -135,6 +138,7 @@ fn compiled(
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let materials: Arc<[Box<dyn Material>]> = materials.into();
     let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
+    let volumes = nodes.volumes(&render_from_world);
     let lights = nodes.lights(&all_lights, (&ground.built, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,
@@ -154,11 +158,15 @@ fn compiled(
     if diagnostics.has_errors() {
         return None;
     }
-    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, radius };
+    let sides = media::Media::new((0..).zip(&desc.shapes).map(|(index, shape)| {
+        let material = placed.objects[index].material;
+        ((material, shape.media), sides::medium(shape, &*materials[material as usize], inside.get(material as usize)))
+    }));
+    let made = Made { textures, materials, volumes, media: sides, lights, placed: placed.clone(), view, report, radius };
     let mut scene = made.scene(desc);
     let pixel_scale = camera::pixel_scale(desc, options);
     camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
-    scene.start = media::start(&scene);
+    scene.start = media::start(&scene, sides::around(&camera));
     let textures = Arc::clone(&scene.textures);
     let kept =
         shared.map(|ground| Kept { camera, lights: all_lights, moves, origin, ground, placed, textures });
@@ -181,6 +189,8 @@ fn placed(
 struct Made {
     textures: Arc<[Box<dyn Texture>]>,
     materials: Arc<[Box<dyn Material>]>,
+    volumes: Vec<Volume>,
+    media: Media,
     lights: lights::Lights,
     placed: geometry::Placed,
     view: View,
@@ -192,7 +202,7 @@ struct Made {
 impl Made {
     /// The scene, neither focused nor told which bodies the camera is in.
     fn scene(self, desc: &SceneDesc) -> Scene {
-        let Self { textures, materials, lights, placed, view, report, radius } = self;
+        let Self { textures, materials, volumes, media, lights, placed, view, report, radius } = self;
         let lights::Lights { lights, names: light_names, .. } = lights;
         let those = |is: fn(&dyn Light) -> bool| {
             (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect()
@@ -216,7 +226,9 @@ impl Made {
             targets: placed.targets,
             shapes: placed.shapes,
             movers: placed.movers,
-            media: Arc::new(Media::new(&materials)),
+            media: Arc::new(media),
+            volumes: volumes.into(),
+            volume_names: desc.media.iter().map(|medium| medium.name.clone()).collect(),
             is_passed: materials
                 .iter()
                 .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
@@ -233,16 +245,18 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (made, start.elapsed())
 }
 
-/// The integrator of a description that asks for none.
-pub fn default_integrator() -> Node {
-    Node::new("path", durer_scene::Params::new())
+/// The integrator of a description that asks for none: paths, which heed media if there are any.
+pub fn default_integrator(desc: &SceneDesc) -> Node {
+    let kind = if desc.media.is_empty() { "path" } else { "volpath" };
+    Node::new(kind, durer_scene::Params::new())
 }
 
 /// What is used for an integrator of pbrt that we do not have: paths of as many bounces, which see most of the same light.
-pub fn stand_in_integrator(node: &Node) -> Option<Node> {
+pub fn stand_in_integrator(node: &Node, desc: &SceneDesc) -> Option<Node> {
     let mut params = durer_scene::Params::new();
     if let Some(depth) = node.params.get("maxdepth") {
         params.push(depth.clone());
     }
-    NOT_YET.contains(&node.kind.as_str()).then(|| Node::new("path", params))
+    let usual = default_integrator(desc);
+    NOT_YET.contains(&node.kind.as_str()).then(|| Node { params, ..usual })
 }

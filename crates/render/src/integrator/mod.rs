@@ -22,7 +22,7 @@ use crate::{
 pub use ambient_occlusion::AmbientOcclusion;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
-pub use path::{Direct, Path};
+pub use path::{Direct, Path, VolPath};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -142,13 +142,14 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Whitted>(),
     Entry::of::<Distributed>(),
     Entry::of::<Path>(),
+    Entry::of::<VolPath>(),
     Entry::of::<Direct>(),
     Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
 ];
 
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
-pub const PATHS: &[&str] = &["path", "direct"];
+pub const PATHS: &[&str] = &["path", "volpath", "direct"];
 
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
 pub const NOT_YET: &[&str] =

@@ -18,13 +18,16 @@ pub enum RayKind {
     GlossyReflection,
     /// Drawn about a refracted direction: translucency.
     GlossyRefraction,
-    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another.
+    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another, or where
+    /// a medium begins or ends.
     Passing,
+    /// Sent on by a particle that floats.
+    Scattered,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Eye,
         Self::Shadow,
         Self::Reflection,
@@ -32,6 +35,7 @@ impl RayKind {
         Self::GlossyReflection,
         Self::GlossyRefraction,
         Self::Passing,
+        Self::Scattered,
     ];
 
     /// The kind of ray that follows a perfectly sharp direction.
@@ -59,6 +63,7 @@ impl RayKind {
             Self::GlossyReflection => "glossy-reflection",
             Self::GlossyRefraction => "glossy-refraction",
             Self::Passing => "passing",
+            Self::Scattered => "scattered",
         }
     }
 }

@@ -6,7 +6,7 @@ use durer_core::{Id, math::Ray, spectrum::Spectrum};
 use durer_model::{Surface, texture::TextureLookup};
 
 use super::{
-    Choice, Clock, Detail, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded, StopReason, TreeHit,
+    Choice, Clock, Detail, Floating, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded, StopReason, TreeHit,
     TreeMedia, TreeNode, TreeShading,
     walk::{self, Step},
 };
@@ -122,6 +122,7 @@ impl Probe for Recorder<'_> {
             result: Spectrum::BLACK,
             hit: None,
             shading: None,
+            floating: None,
             light: None,
             stop: None,
             limit: None,
@@ -181,6 +182,9 @@ impl Probe for Recorder<'_> {
             blurred_sky: event.blurred_sky,
             textures,
         });
+    }
+    fn floating(&mut self, id: NodeId, event: &Floating) {
+        Recorder::node(self, id).floating = Some(*event);
     }
     fn met_light(&mut self, id: NodeId, other_pdf: f32, mis: f32) {
         if let Some(chosen) = &mut Recorder::node(self, id).chosen {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{ParamDefault, ParamSpec, ParamType, Schema, TextureNames};
 use crate::{
     AssetError, Assets, Data, Diagnostics, Image, Location, Mesh, NamedNode, Node, Param, TextureDesc,
-    TextureValue, ValueType,
+    TextureValue, ValueType, Voxels,
 };
 
 /// A number, or the index of the float texture that gives it.
@@ -186,6 +186,13 @@ impl<'a> Args<'a> {
         self.error_at(at, message.into());
     }
 
+    /// Complains that the text of parameter `name` is none of `known`; `what` is what messages call it.
+    pub fn unknown(&mut self, name: &str, what: &str, known: impl IntoIterator<Item = &'static str>) {
+        self.sound = false;
+        let at = self.place(name);
+        self.diagnostics.unknown(at, what, self.text(name), known);
+    }
+
     /// Warns about parameter `name`, or about the node if it is not given.
     pub fn warning(&mut self, name: &str, message: impl Into<String>) {
         let at = self.place(name);
@@ -318,6 +325,18 @@ impl<'a> Args<'a> {
             return None;
         };
         self.found(name, assets.mesh(self.text(name)), "nothing is shown")
+    }
+
+    /// The names of the grids of voxels in the file that a [`ParamType::File`] names; `None` as with images.
+    pub fn grids(&mut self, name: &str) -> Option<Vec<String>> {
+        let (assets, _) = self.assets?;
+        self.found(name, assets.grids(self.text(name)), "nothing is shown")
+    }
+
+    /// One of them; `None` as with images.
+    pub fn voxels(&mut self, name: &str, grid: &str) -> Option<Voxels> {
+        let (assets, _) = self.assets?;
+        self.found(name, assets.voxels(self.text(name), grid), "nothing is shown")
     }
 
     /// The contents of the file that a [`ParamType::File`] names; `None` if they cannot be had, which was then complained

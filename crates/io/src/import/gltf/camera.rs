@@ -27,7 +27,7 @@ pub(super) fn camera(element: &Element<'_>, name: &str, world: &DAffine3) -> Che
         }
     };
     let placement = rigid(world) * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
-    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera: Motion::still(placement) })
+    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera: Motion::still(placement), media: None })
 }
 
 fn perspective(element: &Element<'_>) -> Checked<Node> {

@@ -293,5 +293,5 @@ fn body(args: &mut Args<'_>) -> Option<Medium> {
         return None;
     }
     let absorption = distance.map_or(Color::BLACK, |d| color.map(|c| -ln(c.clamp(1e-6, 1.0)) / d));
-    Some(Medium { eta: args.float("eta"), absorption, priority: None })
+    Some(Medium { absorption, ..Medium::clear(args.float("eta")) })
 }
