@@ -43,7 +43,8 @@ fn pixels_are_their_trees_and_each_ray_can_be_traced_again_d1_d2() {
         let (mut particles, mut replayed) = (0, 0);
         let view = &scene.scene.view;
         for i in 0..150u32 {
-            let (pixel, sample) = ([(i * 37) % view.width, (i * 17) % view.height], i % scene.settings.samples);
+            let (pixel, sample) =
+                ([(i * 37) % view.width, (i * 17) % view.height], i % scene.settings.samples);
             let (tree, rgb) = scene.job().record(pixel, sample);
             assert_eq!(bits(scene.job().value(pixel, sample)), bits(rgb), "{name} {pixel:?}");
             assert_eq!(bits(Basis::Rgb.to_rgb(tree.fold())), bits(rgb), "{name} {pixel:?}");
@@ -97,9 +98,15 @@ fn weights_of_particles_are_what_their_factors_give_d3() {
                         lights += 1;
                     }
                     ChosenBy::Phase => {
-                        assert!(node.kind == RayKind::Scattered && (chosen.pdf.expect("drawn") / phase - 1.0).abs() < 1e-3);
+                        assert!(
+                            node.kind == RayKind::Scattered
+                                && (chosen.pdf.expect("drawn") / phase - 1.0).abs() < 1e-3
+                        );
                         let f = chosen.f.expect("known");
-                        assert!(equal(f * (1.0 / (chosen.pdf.expect("drawn") * chosen.kept)), node.weight), "{chosen:?}");
+                        assert!(
+                            equal(f * (1.0 / (chosen.pdf.expect("drawn") * chosen.kept)), node.weight),
+                            "{chosen:?}"
+                        );
                         scattered += 1;
                     }
                     by => panic!("{by:?} at a particle"),

@@ -113,7 +113,8 @@ fn where_nothing_is_lost_scattering_disappears_in_a_uniform_sky() {
 #[test]
 fn what_glows_sends_what_it_keeps() {
     // Kirchhoff: where stuff absorbs 1 - exp(-tau), it sends that share of Le.
-    let ember = fog("\"rgb sigma_a\" [0.7 0.7 0.7] \"rgb sigma_s\" [0 0 0] \"rgb Le\" [2 2 2] \"float Lescale\" 1.5");
+    let ember =
+        fog("\"rgb sigma_a\" [0.7 0.7 0.7] \"rgb sigma_s\" [0 0 0] \"rgb Le\" [2 2 2] \"float Lescale\" 1.5");
     let dark = "LightSource \"infinite\" \"rgb L\" [0 0 0]\n";
     let found = seen(AHEAD, "", &(dark.to_owned() + &ember + &slab(2.0, 4.0)), 1);
     near(found, 3.0 * (1.0 - (-1.4f64).exp()), 1e-5, "slab");

@@ -309,7 +309,10 @@ impl Scene {
     }
     /// The first object that has this medium behind its surface.
     pub fn filled_with(&self, medium: Id<Medium>) -> Option<&Object> {
-        (0..).zip(self.objects.iter()).find(|(i, _)| self.media.of_object(Id::new(*i)) == Some(medium)).map(|(_, o)| o)
+        (0..)
+            .zip(self.objects.iter())
+            .find(|(i, _)| self.media.of_object(Id::new(*i)) == Some(medium))
+            .map(|(_, o)| o)
     }
     /// An object.
     pub fn object(&self, id: Id<Object>) -> &Object {

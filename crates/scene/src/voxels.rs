@@ -118,7 +118,8 @@ impl Voxels {
     }
     /// A bound on the values from one to another index along each axis, both included: that of all blocks there.
     pub fn most_in(&self, span: [[i64; 2]; 3]) -> f32 {
-        let [xs, ys, zs] = span.map(|[from, to]| (from.max(0) as usize / BLOCK)..=(to.max(0) as usize / BLOCK));
+        let [xs, ys, zs] =
+            span.map(|[from, to]| (from.max(0) as usize / BLOCK)..=(to.max(0) as usize / BLOCK));
         let mut most = 0.0f32;
         for z in zs {
             for y in ys.clone() {

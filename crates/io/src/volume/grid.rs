@@ -120,5 +120,7 @@ fn placement(bytes: &mut Bytes<'_>) -> Result<DAffine3, Why> {
         }
     };
     let is_sound = placed.is_finite() && placed.matrix3.determinant() != 0.0;
-    is_sound.then_some(placed).ok_or_else(|| Why::Damaged("the place of a grid is flat or infinite".to_owned()))
+    is_sound
+        .then_some(placed)
+        .ok_or_else(|| Why::Damaged("the place of a grid is flat or infinite".to_owned()))
 }

@@ -145,7 +145,8 @@ fn blosc(chunk: &[u8], length: usize) -> Result<Vec<u8>, Why> {
     for (index, start) in starts.into_iter().enumerate() {
         let whole = index + 1 < count || length.is_multiple_of(block_length);
         let own = if whole { block_length } else { length % block_length };
-        let parts = if !is_whole && whole && typesize <= 16 && block_length / typesize >= 128 { typesize } else { 1 };
+        let parts =
+            if !is_whole && whole && typesize <= 16 && block_length / typesize >= 128 { typesize } else { 1 };
         let mut from = Bytes::new(chunk);
         from.jump(u64::from(start))?;
         let mut block = Vec::with_capacity(own);
@@ -186,7 +187,8 @@ mod tests {
 
     #[test]
     fn half_floats_are_those_of_ieee() {
-        let known = [(0x3C00, 1.0), (0xC000, -2.0), (0x3555, 0.333_251_95), (1, 5.960_464_5e-8), (0x7BFF, 65504.0)];
+        let known =
+            [(0x3C00, 1.0), (0xC000, -2.0), (0x3555, 0.333_251_95), (1, 5.960_464_5e-8), (0x7BFF, 65504.0)];
         known.into_iter().for_each(|(bits, value)| assert_eq!(half(bits), value));
     }
 

@@ -4,13 +4,7 @@
 //! which is 1 at the top, and are 1 everywhere below.
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{
-    HenyeyGreenstein, Volume,
-    glow::Glow,
-    matter::Matter,
-    uniformgrid::Size,
-    volume::Field,
-};
+use super::{HenyeyGreenstein, Volume, glow::Glow, matter::Matter, uniformgrid::Size, volume::Field};
 use crate::texture::noise;
 
 /// The word `cloud`.
@@ -87,8 +81,10 @@ impl Kind for Cloud {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let corners = Size::corners(args);
-        let [density, wispiness, frequency] = ["density", "wispiness", "frequency"].map(|name| args.float(name));
-        let matter = Matter { sigma_a: args.color(Matter::SIGMA_A.name), sigma_s: args.color(Matter::SIGMA_S.name) };
+        let [density, wispiness, frequency] =
+            ["density", "wispiness", "frequency"].map(|name| args.float(name));
+        let matter =
+            Matter { sigma_a: args.color(Matter::SIGMA_A.name), sigma_s: args.color(Matter::SIGMA_S.name) };
         let wisps = Wisps { density, wispiness, frequency, corners };
         let phase = HenyeyGreenstein::new(args.float(Matter::G.name));
         args.is_sound().then(|| Volume::new(Field::Wisps(matter, wisps), Glow::DARK, phase).within(corners))

@@ -77,7 +77,13 @@ fn left(sigma: Spectrum, way: f32) -> Spectrum {
 impl Volume {
     /// Follows a ray of unit direction from its parameter `t0` to `t1`. `lanes` are the densities of the lanes so far, with
     /// mean 1.
-    pub fn fly(&self, (basis, lanes): (Basis, Spectrum), ray: &Ray, span: (f32, f32), draws: Draws<'_>) -> Flight {
+    pub fn fly(
+        &self,
+        (basis, lanes): (Basis, Spectrum),
+        ray: &Ray,
+        span: (f32, f32),
+        draws: Draws<'_>,
+    ) -> Flight {
         match (self.is_even(), self.scatters()) {
             (true, _) => self.fly_evenly((basis, lanes), ray, span, draws),
             (false, true) => self.fly_by_chance((basis, lanes), ray, span, draws),
@@ -156,7 +162,13 @@ impl Volume {
     }
 
     /// Follows a ray through what does not scatter.
-    fn fade(&self, (basis, lanes): (Basis, Spectrum), ray: &Ray, span: (f32, f32), draws: Draws<'_>) -> Flight {
+    fn fade(
+        &self,
+        (basis, lanes): (Basis, Spectrum),
+        ray: &Ray,
+        span: (f32, f32),
+        draws: Draws<'_>,
+    ) -> Flight {
         let mut sent = Spectrum::BLACK;
         let weight = self.ratio(basis, ray, span, draws, |added| sent += added);
         Flight { end: End::Through, weight, lanes, passed: 1.0, sent }
@@ -245,16 +257,16 @@ impl<'a> Places<'a> {
     }
     /// The next place behind `t` and before `to`, with a number in `[0, 1)`; `t` goes there, or to the end.
     fn next(&mut self, t: &mut f32, to: f32, bound: f32) -> Option<(f32, f32)> {
-        let way = self.depth / bound;
-        if !(*t + way < to) {
-            // What is infinite or NaN where there is nothing is not counted.
-            let counted = (to - *t) * bound;
-            self.depth = if counted > 0.0 { (self.depth - counted).max(0.0) } else { self.depth };
-            return None;
+        let at = *t + self.depth / bound;
+        if at < to {
+            *t = at;
+            let found = (at, self.u);
+            self.draw();
+            return Some(found);
         }
-        *t += way;
-        let found = (*t, self.u);
-        self.draw();
-        Some(found)
+        // What is infinite or NaN where there is nothing is not counted.
+        let counted = (to - *t) * bound;
+        self.depth = if counted > 0.0 { (self.depth - counted).max(0.0) } else { self.depth };
+        None
     }
 }

@@ -30,7 +30,7 @@ pub(super) struct Glow {
 enum Degrees {
     Dense(Grid<f32>),
     /// In a cube of their own, which is where the volume's is or elsewhere.
-    Sparse(Voxels, Transform),
+    Sparse(Box<(Voxels, Transform)>),
 }
 
 /// How hot each place is.
@@ -73,7 +73,8 @@ impl Heat {
     /// The same, of voxels in a cube of their own.
     pub(super) fn sparse(voxels: Voxels, degrees: (f32, f32), own_from_cube: &DAffine3) -> Self {
         let most = voxels.most();
-        Self::of(Degrees::Sparse(voxels, Transform::from_f64(own_from_cube)), most, degrees)
+        let placed = Box::new((voxels, Transform::from_f64(own_from_cube)));
+        Self::of(Degrees::Sparse(placed), most, degrees)
     }
     fn of(field: Degrees, most: f32, (offset, scale): (f32, f32)) -> Self {
         let hottest = ((most - offset) * scale).max(-offset * scale);
@@ -84,7 +85,8 @@ impl Heat {
     fn at(&self, p: [f32; 3]) -> Color {
         let degrees = match &self.field {
             Degrees::Dense(grid) => grid.at(p),
-            Degrees::Sparse(voxels, own_from_cube) => {
+            Degrees::Sparse(placed) => {
+                let (voxels, own_from_cube) = &**placed;
                 let own = own_from_cube.point(Point3::new(p[0], p[1], p[2]));
                 between(voxels.size, own.to_array(), |index| voxels.value(index))
             }

@@ -1,12 +1,7 @@
 //! The same everywhere: fog, milk, coloured water.
 use durer_scene::{Args, Kind, Schema};
 
-use super::{
-    HenyeyGreenstein, Volume,
-    glow::Glow,
-    matter::Matter,
-    volume::Field,
-};
+use super::{HenyeyGreenstein, Volume, glow::Glow, matter::Matter, volume::Field};
 
 /// The word `homogeneous`.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,7 @@
 //!
 //! The grid is walked as in Amanatides and Woo ("A Fast Voxel Traversal Algorithm for Ray Tracing", 1987); see Physically
 //! Based Rendering, 4th edition, section 11.4.4.
+use std::cmp::Ordering;
 
 /// The largest density in each cell of the unit cube.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,8 +54,15 @@ impl Majorants {
             near = near.max(planes[0].min(planes[1]));
             far = far.min(planes[0].max(planes[1]));
         }
-        let mut steps =
-            Steps { majorants: self, t: near, end: far, cell: [0; 3], next: [f32::INFINITY; 3], by: [0.0; 3], d };
+        let mut steps = Steps {
+            majorants: self,
+            t: near,
+            end: far,
+            cell: [0; 3],
+            next: [f32::INFINITY; 3],
+            by: [0.0; 3],
+            d,
+        };
         if !steps.is_over() {
             for axis in 0..3 {
                 let n = self.size[axis] as f32;
@@ -87,7 +95,7 @@ pub(super) struct Steps<'a> {
 impl Steps<'_> {
     /// True also where a bound is NaN.
     fn is_over(&self) -> bool {
-        !(self.t < self.end)
+        self.t.partial_cmp(&self.end) != Some(Ordering::Less)
     }
 }
 

@@ -21,7 +21,12 @@ impl Kind for NanoVdb {
         doc: "Stuff as dense as a grid of an OpenVDB file says, and as hot as another.",
         params: &[
             ParamSpec::new("filename", ParamType::File, ParamDefault::Required, "The file, .vdb."),
-            ParamSpec::new("grid", ParamType::Text, ParamDefault::Text("density"), "Name of the grid of densities."),
+            ParamSpec::new(
+                "grid",
+                ParamType::Text,
+                ParamDefault::Text("density"),
+                "Name of the grid of densities.",
+            ),
             ParamSpec::new(
                 "temperaturegrid",
                 ParamType::Text,

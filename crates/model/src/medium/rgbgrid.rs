@@ -3,12 +3,7 @@ use durer_core::spectrum::Color;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    HenyeyGreenstein, Volume,
-    glow::Glow,
-    grid::Grid,
-    matter::Matter,
-    uniformgrid::Size,
-    volume::Field,
+    HenyeyGreenstein, Volume, glow::Glow, grid::Grid, matter::Matter, uniformgrid::Size, volume::Field,
 };
 
 /// The word `rgbgrid`.
@@ -52,12 +47,27 @@ impl Kind for RgbGrid {
         aliases: &[],
         doc: "A box of stuff whose coefficients are given on a grid as colours.",
         params: &[
-            ParamSpec::new("sigma_a", ParamType::Colors, ParamDefault::Unset, "nx ny nz absorption coefficients, in 1/m; 1 if there are none.")
-                .range(0.0, f32::INFINITY),
-            ParamSpec::new("sigma_s", ParamType::Colors, ParamDefault::Unset, "nx ny nz scattering coefficients, in 1/m; 1 if there are none.")
-                .range(0.0, f32::INFINITY),
-            ParamSpec::new("Le", ParamType::Colors, ParamDefault::Unset, "nx ny nz radiances that are sent out; they need \"sigma_a\".")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "sigma_a",
+                ParamType::Colors,
+                ParamDefault::Unset,
+                "nx ny nz absorption coefficients, in 1/m; 1 if there are none.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "sigma_s",
+                ParamType::Colors,
+                ParamDefault::Unset,
+                "nx ny nz scattering coefficients, in 1/m; 1 if there are none.",
+            )
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "Le",
+                ParamType::Colors,
+                ParamDefault::Unset,
+                "nx ny nz radiances that are sent out; they need \"sigma_a\".",
+            )
+            .range(0.0, f32::INFINITY),
             Glow::SCALE,
             Size::X,
             Size::Y,
@@ -72,11 +82,15 @@ impl Kind for RgbGrid {
         let size = Size::read(args);
         let corners = Size::corners(args);
         let [sigma_a, sigma_s, sent] = ["sigma_a", "sigma_s", "Le"].map(|name| {
-            let values: Vec<Color> = args.floats(name).as_chunks::<3>().0.iter().map(|&rgb| Color { rgb }).collect();
+            let values: Vec<Color> =
+                args.floats(name).as_chunks::<3>().0.iter().map(|&rgb| Color { rgb }).collect();
             Size::grid(args, name, size, values)
         });
         if sigma_a.is_none() && (sigma_s.is_none() || sent.is_some()) {
-            args.error("sigma_a", "rgbgrid needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\", for \"Le\" the first");
+            args.error(
+                "sigma_a",
+                "rgbgrid needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\", for \"Le\" the first",
+            );
         }
         let colored = Colored { sigma_a, sigma_s, scale: args.float(Matter::SCALE.name) };
         let glow = Glow::painted(sent, args.float(Glow::SCALE.name));

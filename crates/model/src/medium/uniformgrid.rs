@@ -70,8 +70,13 @@ impl Kind for UniformGrid {
         aliases: &[],
         doc: "A box of stuff whose density is given on a grid: smoke, clouds, and with temperatures fire.",
         params: &[
-            ParamSpec::new("density", ParamType::Floats, ParamDefault::Required, "nx ny nz factors of the coefficients.")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "density",
+                ParamType::Floats,
+                ParamDefault::Required,
+                "nx ny nz factors of the coefficients.",
+            )
+            .range(0.0, f32::INFINITY),
             Size::X,
             Size::Y,
             Size::Z,
@@ -83,8 +88,13 @@ impl Kind for UniformGrid {
             Matter::SCALE,
             Matter::G,
             Glow::COLOR,
-            ParamSpec::new("Lescale", ParamType::Floats, ParamDefault::Unset, "nx ny nz factors of what is sent out.")
-                .range(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "Lescale",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "nx ny nz factors of what is sent out.",
+            )
+            .range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "temperature",
                 ParamType::Floats,

@@ -135,9 +135,7 @@ impl Volume {
         let (sigma_a, sigma_s) = match &self.field {
             Field::Even(matter) => of(matter, 1.0),
             Field::Dense(matter, grid) => of(matter, grid.at(p).max(0.0)),
-            Field::Sparse(matter, voxels) => {
-                of(matter, between(voxels.size, p, |index| voxels.value(index)))
-            }
+            Field::Sparse(matter, voxels) => of(matter, between(voxels.size, p, |index| voxels.value(index))),
             Field::Wisps(matter, wisps) => of(matter, wisps.at(p)),
             Field::Colored(colored) => of(&colored.at(p), 1.0),
         };
@@ -161,9 +159,7 @@ impl Volume {
             Field::Even(matter)
             | Field::Dense(matter, _)
             | Field::Sparse(matter, _)
-            | Field::Wisps(matter, _) => {
-                (lanes(basis, matter.sigma_a) + lanes(basis, matter.sigma_s)).max()
-            }
+            | Field::Wisps(matter, _) => (lanes(basis, matter.sigma_a) + lanes(basis, matter.sigma_s)).max(),
             Field::Colored(_) => 1.0,
         }
     }

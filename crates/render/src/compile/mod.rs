@@ -160,9 +160,22 @@ fn compiled(
     }
     let sides = media::Media::new((0..).zip(&desc.shapes).map(|(index, shape)| {
         let material = placed.objects[index].material;
-        ((material, shape.media), sides::medium(shape, &*materials[material as usize], inside.get(material as usize)))
+        (
+            (material, shape.media),
+            sides::medium(shape, &*materials[material as usize], inside.get(material as usize)),
+        )
     }));
-    let made = Made { textures, materials, volumes, media: sides, lights, placed: placed.clone(), view, report, radius };
+    let made = Made {
+        textures,
+        materials,
+        volumes,
+        media: sides,
+        lights,
+        placed: placed.clone(),
+        view,
+        report,
+        radius,
+    };
     let mut scene = made.scene(desc);
     let pixel_scale = camera::pixel_scale(desc, options);
     camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
@@ -258,5 +271,5 @@ pub fn stand_in_integrator(node: &Node, desc: &SceneDesc) -> Option<Node> {
         params.push(depth.clone());
     }
     let usual = default_integrator(desc);
-    NOT_YET.contains(&node.kind.as_str()).then(|| Node { params, ..usual })
+    NOT_YET.contains(&node.kind.as_str()).then_some(Node { params, ..usual })
 }

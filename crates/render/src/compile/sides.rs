@@ -17,7 +17,11 @@ fn fill(medium: Option<MediumRef>) -> Fill {
 
 /// What is behind the surface of a shape, and before it: what its material says, which has `inside` inside, and what the
 /// shape says itself.
-pub(super) fn medium(shape: &ShapeDesc, material: &dyn Material, inside: Option<&Option<Fill>>) -> Option<Medium> {
+pub(super) fn medium(
+    shape: &ShapeDesc,
+    material: &dyn Material,
+    inside: Option<&Option<Fill>>,
+) -> Option<Medium> {
     let hull = if material.is_nothing() { Hull::Open } else { Hull::Sheet };
     let inside = inside.copied().flatten();
     let own = match (material.medium(), inside) {
@@ -41,8 +45,7 @@ impl Builder<'_> {
                 break;
             }
             // Others go by the number.
-            let mut volume =
-                self.build(MEDIA, "medium", &medium.node, &[]).unwrap_or_else(Volume::nothing);
+            let mut volume = self.build(MEDIA, "medium", &medium.node, &[]).unwrap_or_else(Volume::nothing);
             if !volume.place(&(*render_from_world * medium.world_from_medium)) {
                 self.diagnostics.error(medium.node.at.clone(), "the medium's transform cannot be inverted");
             }

@@ -48,6 +48,7 @@ pub struct EyeSamples {
 
 /// What is traced.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant, reason = "made once for each sample, and never kept")]
 pub enum Start<'a> {
     /// An eye ray.
     Eye(PathRay),

@@ -179,7 +179,8 @@ impl MediumStack {
 
 /// Whether `present` gives way to `other`, both with a priority: a total order of different media.
 fn yields(present: &Medium, other: &Medium) -> bool {
-    let key =
-        |m: &Medium| (m.priority, m.eta.to_bits(), m.absorption.rgb.map(f32::to_bits), (m.inside, m.outside, m.hull));
+    let key = |m: &Medium| {
+        (m.priority, m.eta.to_bits(), m.absorption.rgb.map(f32::to_bits), (m.inside, m.outside, m.hull))
+    };
     key(present) < key(other)
 }

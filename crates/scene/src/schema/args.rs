@@ -1,12 +1,13 @@
 //! Checked access to the parameters of a node.
 mod nested;
+mod voxels;
 
 use std::sync::Arc;
 
 use super::{ParamDefault, ParamSpec, ParamType, Schema, TextureNames};
 use crate::{
     AssetError, Assets, Data, Diagnostics, Image, Location, Mesh, NamedNode, Node, Param, TextureDesc,
-    TextureValue, ValueType, Voxels,
+    TextureValue, ValueType,
 };
 
 /// A number, or the index of the float texture that gives it.
@@ -325,18 +326,6 @@ impl<'a> Args<'a> {
             return None;
         };
         self.found(name, assets.mesh(self.text(name)), "nothing is shown")
-    }
-
-    /// The names of the grids of voxels in the file that a [`ParamType::File`] names; `None` as with images.
-    pub fn grids(&mut self, name: &str) -> Option<Vec<String>> {
-        let (assets, _) = self.assets?;
-        self.found(name, assets.grids(self.text(name)), "nothing is shown")
-    }
-
-    /// One of them; `None` as with images.
-    pub fn voxels(&mut self, name: &str, grid: &str) -> Option<Voxels> {
-        let (assets, _) = self.assets?;
-        self.found(name, assets.voxels(self.text(name), grid), "nothing is shown")
     }
 
     /// The contents of the file that a [`ParamType::File`] names; `None` if they cannot be had, which was then complained

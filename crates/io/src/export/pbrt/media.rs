@@ -12,7 +12,8 @@ impl Writer<'_> {
             self.line("");
             Frame::Still(medium.world_from_medium).write(&mut self.text);
             let kind = quoted(&medium.node.kind);
-            self.text.push_str(&format!("MakeNamedMedium {} \"string type\" [ {kind} ]", quoted(&medium.name)));
+            self.text
+                .push_str(&format!("MakeNamedMedium {} \"string type\" [ {kind} ]", quoted(&medium.name)));
             self.params(&medium.node, &owner);
         }
         if !desc.media.is_empty() {

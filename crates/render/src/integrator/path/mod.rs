@@ -71,7 +71,14 @@ impl Course {
     fn from_args(args: &mut Args<'_>) -> Option<Self> {
         let rules = Rules { max_depth: args.int("maxdepth") as u32, ..Rules::PATH };
         let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
-        Some(Self { rules, light_sampler, regularize: false, roulette_depth: u32::MAX, direct_only: false, heeds_media: false })
+        Some(Self {
+            rules,
+            light_sampler,
+            regularize: false,
+            roulette_depth: u32::MAX,
+            direct_only: false,
+            heeds_media: false,
+        })
     }
 }
 

@@ -81,7 +81,9 @@ impl<P: Probe> Follow<'_, P> {
         let scene = self.walk.cx.scene;
         let choosing = ray.sampler.fork(LIGHT_BRANCH);
         let u = || choosing.d1(Dim::LightChoice);
-        let Some(chosen) = scene.choose_light(self.course.light_sampler, lit, u) else { return Spectrum::BLACK };
+        let Some(chosen) = scene.choose_light(self.course.light_sampler, lit, u) else {
+            return Spectrum::BLACK;
+        };
         let cx = LightCx { basis: self.walk.cx.basis, time: lit.time };
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else {
             return Spectrum::BLACK;

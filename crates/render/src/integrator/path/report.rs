@@ -116,12 +116,7 @@ impl<P: Probe> Follow<'_, P> {
     }
 
     /// What floats on the way of a ray, and the particle that it met.
-    pub(super) fn report_floating(
-        &mut self,
-        (ray, volume): (&PathRay, &Volume),
-        flight: &Flight,
-        id: P::Id,
-    ) {
+    pub(super) fn report_floating(&mut self, (ray, volume): (&PathRay, &Volume), flight: &Flight, id: P::Id) {
         let scene = self.walk.cx.scene;
         let Fill::Volume(number) = ray.media.present(&scene.media).fill else { return };
         let at = |t| {

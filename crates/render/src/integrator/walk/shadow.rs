@@ -11,7 +11,12 @@ use durer_core::{
 };
 use durer_model::{bsdf::Straight, light::LightSample};
 
-use super::{super::shading::{MEDIUM_BRANCH, Shading}, MOST_PASSED, Walk, lights::LIGHT_BRANCH, span};
+use super::{
+    super::shading::{MEDIUM_BRANCH, Shading},
+    MOST_PASSED, Walk,
+    lights::LIGHT_BRANCH,
+    span,
+};
 use crate::{
     MediumStack, Object, PathRay,
     media::{Boundary, Crossing},
