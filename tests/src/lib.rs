@@ -79,7 +79,7 @@ pub const FILES: &[&str] = &[
 ];
 
 /// Whitted's integrator, Cook's in both ways to combine samples, ray casting, the paths, and particles, for small pictures.
-pub fn settings() -> [Options; 9] {
+pub fn settings() -> [Options; 10] {
     let of = |integrator: &str, distribution: Distribution| Options {
         integrator: Some(integrator.to_owned()),
         width: Some(64),
@@ -101,6 +101,7 @@ pub fn settings() -> [Options; 9] {
         Options { max_depth: Some(3), ..of("distributed", distributed(Sampling::Nested, 2)) },
         Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
         of("path", none),
+        of("volpath", none),
         of("direct", none),
         of("light", none),
         of("bdpt", none),

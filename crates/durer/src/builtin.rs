@@ -58,6 +58,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/cornell.pbrt"),
     },
     Builtin {
+        name: "fog",
+        doc: "sunbeams in the haze of a hall, and lanterns that fade with the distance",
+        text: include_str!("../scenes/fog.pbrt"),
+    },
+    Builtin {
         name: "snell",
         doc: "Snell's window: the sky from under water, and the floor mirrored around it",
         text: include_str!("../scenes/snell.pbrt"),

@@ -12,7 +12,7 @@ use crate::{Distribution, Options};
 /// The word of the integrator that answers to `kind`, or stands in for it.
 pub(crate) fn registered_word(kind: &str) -> String {
     let entry = INTEGRATORS.iter().find(|e| e.answers_to(kind));
-    entry.map_or_else(|| compile::default_integrator().kind, |e| e.schema.name.to_owned())
+    entry.map_or("path", |e| e.schema.name).to_owned()
 }
 
 /// The integrator's parameters with their values, without those that have none.
@@ -62,9 +62,9 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
         (Some(kind), Some(node)) if node.kind == *kind => node,
         (Some(kind), _) => Node::new(kind, durer_scene::Params::new()),
         (None, Some(node)) => node,
-        (None, None) => compile::default_integrator(),
+        (None, None) => compile::default_integrator(desc),
     };
-    if let Some(other) = compile::stand_in_integrator(&node) {
+    if let Some(other) = compile::stand_in_integrator(&node, desc) {
         // Not of those that we have: the default one stands in, and the wishes are for it.
         let message =
             format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, other.kind);
@@ -72,6 +72,10 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
         node = other;
     }
     node = with_usual_depth(desc, node);
+    if !desc.media.is_empty() && registered_word(&node.kind) != "volpath" {
+        let message = format!("the integrator \"{}\" ignores the media of the scene", node.kind);
+        diagnostics.note(node.at.clone(), message).hint("--integrator volpath heeds them");
+    }
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     for (wish, name, ty, data) in wishes(options) {
         if takes.iter().any(|p| p.name == name) {

@@ -10,7 +10,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use durer_scene::{AssetError, Assets, Image, Limits, Mesh};
+use durer_scene::{AssetError, Assets, Image, Limits, Mesh, Voxels};
 
 use crate::gzip;
 
@@ -191,6 +191,12 @@ impl Assets for FileAssets {
     }
     fn mesh(&self, path: &str) -> Result<Arc<Mesh>, AssetError> {
         cached(&self.meshes, path, || crate::import::ply::mesh(&self.bytes(path)?, path))
+    }
+    fn grids(&self, path: &str) -> Result<Vec<String>, AssetError> {
+        crate::volume::names(&self.bytes(path)?, path)
+    }
+    fn voxels(&self, path: &str, name: &str) -> Result<Voxels, AssetError> {
+        crate::volume::voxels(&self.bytes(path)?, path, name)
     }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         cached(&self.images, path, || crate::image::read(&self.bytes(path)?, path, self.limits))

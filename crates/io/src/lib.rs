@@ -7,5 +7,6 @@ pub mod export;
 mod gzip;
 pub mod image;
 pub mod import;
+mod volume;
 
 pub use assets::FileAssets;

@@ -1,4 +1,4 @@
-//! What a scene is made of: shapes, materials, lights, textures, cameras and the filters of their pictures.
+//! What a scene is made of: shapes, materials, media, lights, textures, cameras and the filters of their pictures.
 //!
 //! Each folder holds a trait, a registry and one file per kind. A new kind is one new file and one line in the
 //! registry; parsing, checks, help, reference documentation and the conformance tests iterate over it.
@@ -9,7 +9,7 @@ pub mod camera;
 pub mod filter;
 pub mod light;
 pub mod material;
-mod medium;
+pub mod medium;
 pub mod shape;
 mod surface;
 pub mod texture;
@@ -17,7 +17,7 @@ pub mod texture;
 use durer_core::spectrum::{Basis, Color, Spectrum};
 use durer_scene::{ColorInput, FloatInput};
 
-pub use medium::Medium;
+pub use medium::{Fill, Hull, Medium, Volume};
 pub use surface::Surface;
 use texture::{Looked, Texture, TextureAt, TextureLog, TextureLookup};
 

@@ -40,8 +40,12 @@ pub struct PathRay {
     /// How many rays share the place of one, over all bounces: 1 unless rays were distributed.
     pub siblings: f32,
     /// The density of all draws together of the lobe that the direction was drawn from, 1/sr, which weighs a light that is
-    /// met against sampling the light; `None` where there was no choice.
+    /// met against sampling the light; `None` where there was no choice. Behind what floats it is that of getting so far,
+    /// too. Of rays to lights: the share of the light that is left to scattered rays, if nothing is in the way.
     pub density: Option<f32>,
+    /// The density with which each lane would have drawn the path so far, by the mean over the lanes: 1 where nothing
+    /// scatters them differently. See [`durer_model::medium::Flight`].
+    pub lanes: Spectrum,
     /// Where lights were asked that the ray may meet.
     pub lit: Lit,
     /// What became of radiance by the index of refraction, from the eye to here; see [`durer_model::bsdf::Scattered::compression`].
@@ -72,6 +76,7 @@ impl PathRay {
             sampler,
             siblings: 1.0,
             density: None,
+            lanes: Spectrum::ONE,
             lit: Lit { p: ray.o, n: None, time: ray.time },
             compression: 1.0,
             is_blurred: false,

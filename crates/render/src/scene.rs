@@ -11,7 +11,7 @@ use durer_core::{
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
-    Surface,
+    Hull, Medium, Surface, Volume,
     light::{Extent, Light},
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
@@ -117,6 +117,10 @@ pub struct Scene {
     pub(crate) movers: Arc<[PlacedShape]>,
     /// What fills transparent bodies.
     pub media: Arc<Media>,
+    /// What floats in bodies or in the air, in the order of the description.
+    pub volumes: Arc<[Volume]>,
+    /// Names of the volumes.
+    pub volume_names: Arc<[String]>,
     /// Whether light goes straight on through anything. PERF: asked by every shadow ray of a path.
     pub(crate) is_passed: bool,
     /// The bodies that the camera is in.
@@ -132,6 +136,8 @@ struct Asked<'a> {
     ray: &'a Ray,
     /// Whether shapes hide their backs; the kernel hides those of triangles.
     culls: bool,
+    /// Whether what is no surface is met where media begin and end.
+    bounds: bool,
 }
 
 impl UserGeometry for Asked<'_> {
@@ -143,8 +149,12 @@ impl UserGeometry for Asked<'_> {
 
     /// False in holes, and on the backs of shapes that hide them.
     fn accepts(&self, hit: &Hit) -> bool {
-        let Self { cx, ray, culls } = *self;
-        let material = cx.scene.material(cx.scene.resolve(hit).0);
+        let Self { cx, ray, culls, bounds } = *self;
+        let object = cx.scene.resolve(hit).0;
+        let material = cx.scene.material(object);
+        if bounds && material.is_nothing() {
+            return cx.scene.media.of_object(object).is_some();
+        }
         let may_hide = culls && material.is_one_sided() && cx.scene.targets[hit.instance as usize].is_shape();
         if !may_hide && !material.has_holes() {
             return true;
@@ -159,24 +169,37 @@ impl UserGeometry for Asked<'_> {
 impl Scene {
     /// The nearest hit that is there for rays that see: neither a hole nor the back of something one-sided.
     pub fn closest<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> Option<Hit> {
-        let asked = Asked { cx, ray, culls: true };
+        let asked = Asked { cx, ray, culls: true, bounds: false };
         self.accel.query(ray).user(&asked).cull_backs(true).probe(probe, id).closest()
     }
 
-    /// True if anything that is no hole lies on the ray.
-    pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
-        self.accel.query(ray).user(&Asked { cx, ray, culls: false }).probe(probe, id).any()
-    }
-
-    /// The nearest hit that is no hole, backs of one-sided things included: what a ray to a light meets.
-    pub(crate) fn closest_in_the_way<P: Probe>(
+    /// The same, or the nearest place where a medium begins or ends.
+    pub(crate) fn closest_boundary<P: Probe>(
         &self,
         cx: &SampleCx<'_>,
         ray: &Ray,
         probe: &mut P,
         id: P::Id,
     ) -> Option<Hit> {
-        self.accel.query(ray).user(&Asked { cx, ray, culls: false }).probe(probe, id).closest()
+        let asked = Asked { cx, ray, culls: true, bounds: true };
+        self.accel.query(ray).user(&asked).cull_backs(true).probe(probe, id).closest()
+    }
+
+    /// True if anything that is no hole lies on the ray.
+    pub fn occluded<P: Probe>(&self, cx: &SampleCx<'_>, ray: &Ray, probe: &mut P, id: P::Id) -> bool {
+        self.accel.query(ray).user(&Asked { cx, ray, culls: false, bounds: false }).probe(probe, id).any()
+    }
+
+    /// The nearest hit that is no hole, backs of one-sided things included: what a ray to a light meets. With `bounds` also
+    /// where media begin and end.
+    pub(crate) fn closest_in_the_way<P: Probe>(
+        &self,
+        cx: &SampleCx<'_>,
+        ray: &Ray,
+        bounds: bool,
+        (probe, id): (&mut P, P::Id),
+    ) -> Option<Hit> {
+        self.accel.query(ray).user(&Asked { cx, ray, culls: false, bounds }).probe(probe, id).closest()
     }
 
     /// Meets a ray with a shape that is no mesh, for the kernel.
@@ -199,7 +222,7 @@ impl Scene {
 
     /// The nearest object that casts a shadow on the ray; unwatched.
     pub fn blocker(&self, cx: &SampleCx<'_>, ray: &Ray) -> Option<Id<Object>> {
-        let asked = Asked { cx, ray, culls: false };
+        let asked = Asked { cx, ray, culls: false, bounds: false };
         self.accel.query(ray).user(&asked).closest().map(|hit| self.resolve(&hit).0)
     }
 
@@ -320,10 +343,23 @@ impl Scene {
             shapes: Arc::clone(&self.shapes),
             movers: Arc::clone(&self.movers),
             media: Arc::clone(&self.media),
+            volumes: Arc::clone(&self.volumes),
+            volume_names: Arc::clone(&self.volume_names),
             is_passed: self.is_passed,
         }
     }
 
+    /// Whether an object is a transparent body.
+    pub(crate) fn is_body(&self, object: Id<Object>) -> bool {
+        self.medium_of(object).is_some_and(|id| self.media.get(id).hull == Hull::Body)
+    }
+    /// The first object that has this medium behind its surface.
+    pub fn filled_with(&self, medium: Id<Medium>) -> Option<&Object> {
+        (0..)
+            .zip(self.objects.iter())
+            .find(|(i, _)| self.media.of_object(Id::new(*i)) == Some(medium))
+            .map(|(_, o)| o)
+    }
     /// An object.
     pub fn object(&self, id: Id<Object>) -> &Object {
         &self.objects[id.index()]

@@ -1,7 +1,7 @@
 //! The only door to files: `compile` asks, `durer-io` answers.
 use std::sync::Arc;
 
-use crate::Mesh;
+use crate::{Mesh, Voxels};
 
 /// Bounds on what a hostile file may make us allocate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,6 +126,21 @@ pub trait Assets: Sync {
     /// # Errors
     /// Why it could not be had.
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError>;
+    /// The names of the grids of voxels in the file at `path`.
+    ///
+    /// # Errors
+    /// Why they could not be had.
+    fn grids(&self, path: &str) -> Result<Vec<String>, AssetError> {
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
+    /// The grid called `name` in the file at `path`.
+    ///
+    /// # Errors
+    /// Why it could not be had.
+    fn voxels(&self, path: &str, name: &str) -> Result<Voxels, AssetError> {
+        let _ = name;
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
     /// What to do about `error`: where was looked, and what is there that is called nearly the same.
     fn advice(&self, _error: &AssetError) -> Option<String> {
         None

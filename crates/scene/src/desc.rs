@@ -40,6 +40,29 @@ pub struct NamedNode {
 /// Index of a material in [`SceneDesc::materials`].
 pub type MaterialRef = Id<NamedNode>;
 
+/// Something that floats in places, with the placement of its own space.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct MediumDesc {
+    /// Its name.
+    pub name: String,
+    /// Kind and parameters.
+    pub node: Node,
+    /// Placement.
+    pub world_from_medium: DAffine3,
+}
+
+/// Index of a medium in [`SceneDesc::media`].
+pub type MediumRef = Id<MediumDesc>;
+
+/// What floats on the two sides of a surface; `None` is nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub struct MediumInterface {
+    /// Behind it, where its normal does not point.
+    pub inside: Option<MediumRef>,
+    /// Before it.
+    pub outside: Option<MediumRef>,
+}
+
 /// A camera with its placement. It looks along +z of camera space with y up and x to the right (pbrt's left-handed
 /// camera space: the placement contains the mirroring).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,6 +73,8 @@ pub struct CameraDesc {
     pub node: Node,
     /// Placement.
     pub world_from_camera: Motion,
+    /// What it is in, if the file says so: the outside.
+    pub media: Option<MediumInterface>,
 }
 
 /// What the file asks of the picture; `None` where it is silent.
@@ -128,6 +153,8 @@ pub struct ShapeDesc {
     pub reverse_orientation: bool,
     /// The light that its surface sends out, if any.
     pub area_light: Option<Arc<Node>>,
+    /// What floats on its two sides, if the file says so.
+    pub media: Option<MediumInterface>,
 }
 
 /// A way in which a scene moves that is not part of its description: the file can be read at moments of it.
@@ -162,6 +189,8 @@ pub struct SceneDesc {
     pub textures: Vec<TextureDesc>,
     /// Materials.
     pub materials: Vec<NamedNode>,
+    /// What floats in bodies or in the air; names are unique.
+    pub media: Vec<MediumDesc>,
     /// Lights.
     pub lights: Vec<LightDesc>,
     /// Meshes.

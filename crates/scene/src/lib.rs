@@ -14,12 +14,13 @@ mod nearest;
 mod params;
 mod schema;
 mod span;
+mod voxels;
 
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
-    AnimationDesc, CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc,
-    ShapeSource, TextureDesc, TextureValue,
+    AnimationDesc, CameraDesc, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface, MediumRef,
+    NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};
@@ -30,3 +31,4 @@ pub use schema::{
     Schema, TextureNames, find,
 };
 pub use span::{Location, SourceId, Sources, Span};
+pub use voxels::{BLOCK, VoxelBlocks, Voxels};

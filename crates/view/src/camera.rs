@@ -151,6 +151,7 @@ mod tests {
             name: String::new(),
             node: Node::new("perspective", Params::new()),
             world_from_camera: Motion::still(m),
+            media: None,
         }
     }
 

@@ -70,7 +70,7 @@ impl Settings {
 
     /// The integrator, which a studio always has.
     pub(crate) fn integrator(&self) -> Node {
-        self.desc.integrator.clone().unwrap_or_else(durer::compile::default_integrator)
+        self.desc.integrator.clone().unwrap_or_else(|| durer::compile::default_integrator(&self.desc))
     }
 }
 

@@ -36,13 +36,14 @@ class Group {
 }
 
 export function facts(node: Node): Facts[] {
-  const used = new Set<string>(["light", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle", "left_out", "whole_id"]);
+  const used = new Set<string>(["light", "floating", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle", "left_out", "whole_id"]);
   const group = (): Group => new Group(used, node);
   const all: Facts[] = [
     { title: "Radiance", open: true, facts: radiance(group()) },
     { title: "Ray", open: true, facts: group().key("id").value("id in the JSON", node.whole_id).key("parent").key("kind").key("depth").key("origin", "m").key("direction").key("t", "m").key("time", "s").facts },
     { title: "Hit", open: true, facts: hit(group(), node) },
     { title: "Light", open: true, facts: light(group(), node) },
+    { title: "Medium", open: true, facts: floating(group(), node) },
     { title: "Bodies and Fresnel", open: true, facts: optics(group(), node) },
     { title: "Material", open: false, facts: material(group(), node) },
     { title: "How it was drawn", open: false, facts: drawn(group(), node) },
@@ -74,6 +75,19 @@ function light(g: Group, node: Node): Fact[] {
     if (l.passed) g.facts.push({ name: "passed", text: exact(l.passed), rgb: l.passed });
   }
   return g.key("blocker").facts;
+}
+
+function floating(g: Group, node: Node): Fact[] {
+  const f = node.floating;
+  if (!f) return g.facts;
+  g.value("name", f.medium).value("passed with probability", f.passed);
+  g.facts.push({ name: "weight", text: exact(f.weight), rgb: f.weight }, { name: "sent", text: exact(f.sent), rgb: f.sent });
+  const s = f.scattered;
+  if (s) {
+    g.value("particle at", s.point, "m").value("scattering", s.sigma_s, "1/m").value("absorption", s.sigma_a, "1/m");
+    g.value("phase function", s.phase).value("mean cosine", s.g);
+  }
+  return g.facts;
 }
 
 function optics(g: Group, node: Node): Fact[] {

@@ -36,6 +36,7 @@ export const LOOKS: Record<Kind, Look> = {
   "glossy-reflection": look("R", "glossy reflection", RED, SAFE_RED, 2),
   "glossy-refraction": look("T", "glossy refraction", BLUE, SAFE_BLUE, 2),
   passing: look("P", "passing ray", GREY, SAFE_GREY, 4),
+  scattered: look("M", "ray from a particle", [0.55, 0.35, 0.85], [0.8, 0.475, 0.655], 4),
   "diffuse-bounce": look("D", "diffuse bounce", [0.9, 0.6, 0.1], [0.902, 0.624, 0], 4),
   environment: look("S", "sky", [0.3, 0.75, 0.9], [0.337, 0.706, 0.914], 1),
   "light-sample": look("L", "light sample", GREEN, SAFE_GREEN, 1),

@@ -5,6 +5,7 @@ export type Rgb = [number, number, number];
 
 export type Kind =
   | "eye" | "shadow" | "reflection" | "refraction" | "glossy-reflection" | "glossy-refraction" | "passing"
+  | "scattered"
   | "diffuse-bounce" | "environment" | "light-sample" | "bsdf-sample" | "connection" | "photon";
 
 export interface LightFact {
@@ -64,6 +65,16 @@ export interface Tests {
 /** Rays that there was no room for in the page: how many, what they add to the pixel, what they bring to the ray above. */
 export interface LeftOut { rays: number; contribution: Rgb; result: Rgb }
 
+/** What floats on the way of a ray. */
+export interface Floating {
+  medium: string;
+  weight: Rgb;
+  /** Of `local`, what the medium sends out on the way. */
+  sent: Rgb;
+  passed: number;
+  scattered?: { point: Vec3; sigma_a: Rgb; sigma_s: Rgb; phase: string; g: number } | null;
+}
+
 /** One ray. */
 export interface Node {
   id: number;
@@ -96,6 +107,7 @@ export interface Node {
   triangle?: [Vec3, Vec3, Vec3] | null;
   cos?: number | null;
   time?: number | null;
+  floating?: Floating | null;
   media?: { before?: Body[] | null; after?: Body[] | null; n1: number; n2: number } | null;
   fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean; constant?: boolean | null; eta?: number | null } | null;
   lobes?: Lobe[] | null;

@@ -24,6 +24,8 @@ pub enum Dim {
     Roulette,
     /// The leading wavelength.
     Lambda,
+    /// How far a ray gets in a medium, and what it meets there.
+    Medium,
 }
 
 impl Dim {
@@ -85,6 +87,7 @@ impl Dim {
             Self::LightChoice => (2, [2, 3]),
             Self::Roulette => (3, [0, 1]),
             Self::Lambda => (4, [0, 1]),
+            Self::Medium => (3, [2, 3]),
         }
     }
 
@@ -96,7 +99,7 @@ impl Dim {
             (Self::Pixel, 0) => Some(0),
             (Self::Lens, 0) => Some(2),
             (Self::Time, 0) => Some(4),
-            (Self::Pixel | Self::Lens | Self::Time | Self::Lambda, _) | (_, 0) => None,
+            (Self::Pixel | Self::Lens | Self::Time | Self::Lambda | Self::Medium, _) | (_, 0) => None,
             (hit, n) => Some(
                 7 * usize::from(n) - 2
                     + match hit {
@@ -122,6 +125,7 @@ impl Dim {
             Self::Lobe => "lobe",
             Self::Roulette => "roulette",
             Self::Lambda => "wavelength",
+            Self::Medium => "medium",
         }
     }
 }

@@ -21,6 +21,14 @@ impl Spectrum {
     pub const fn lanes(self) -> [f32; 4] {
         self.0
     }
+    /// One of the four lanes, where one leads a choice that is made for all.
+    ///
+    /// # Panics
+    /// If there is no such lane.
+    #[inline]
+    pub const fn lane(self, index: usize) -> f32 {
+        self.0[index]
+    }
     /// `v` in every lane.
     #[inline]
     pub const fn splat(v: f32) -> Self {

@@ -23,15 +23,25 @@ impl LightColor {
 
     /// The colour of a black body of `kelvin`, at luminance 1 (Planck's law); black at 0 K.
     pub fn blackbody(kelvin: f32) -> Self {
-        // h c / k, in nm K.
-        const C2: f64 = 1.438_776_877e7;
-        let t = f64::from(kelvin);
         // Relative to 550 nm, so that neither cold nor hot bodies leave the range of numbers.
-        let planck = |nm: f64| {
-            let x = C2 / (nm * t);
-            (-5.0 * libm::log(nm / 550.0) - x + C2 / (550.0 * t)) - libm::log1p(-libm::exp(-x))
-        };
-        if kelvin > 0.0 { Self::of(|nm| libm::exp(planck(nm))) } else { Self::default() }
+        let power = |nm: f64| libm::exp(planck(kelvin, nm) - planck(kelvin, 550.0));
+        if kelvin > 0.0 { Self::of(power) } else { Self::default() }
+    }
+
+    /// The colour of a black body of `kelvin` of which the strongest wavelength sends 1, where 1 at all wavelengths has
+    /// luminance 1 (pbrt-v4's `BlackbodySpectrum`): hot bodies outshine warm ones. Black at 0 K.
+    pub fn glow(kelvin: f32) -> Self {
+        // Wien's law: 2.897771955e-3 m K, in nm K.
+        const STRONGEST: f64 = 2.897_771_955e6;
+        if kelvin <= 0.0 {
+            return Self::default();
+        }
+        let strongest = planck(kelvin, STRONGEST / f64::from(kelvin));
+        let sent = MATCHING.iter().enumerate().map(|(i, weights)| {
+            let power = libm::exp(planck(kelvin, f64::from(RANGE.0) + i as f64) - strongest);
+            super::luminance(weights.map(f64::from)) * power
+        });
+        Self::blackbody(kelvin) * sent.sum::<f64>() as f32
     }
 
     /// From power over wavelengths in nm.
@@ -64,6 +74,14 @@ impl LightColor {
     pub fn luminance(&self) -> f32 {
         self.color.luminance()
     }
+}
+
+/// The logarithm of what a black body sends at a wavelength in nm, up to a constant.
+fn planck(kelvin: f32, nm: f64) -> f64 {
+    // h c / k, in nm K.
+    const C2: f64 = 1.438_776_877e7;
+    let x = C2 / (nm * f64::from(kelvin));
+    -5.0 * libm::log(nm / 550.0) - x - libm::log1p(-libm::exp(-x))
 }
 
 impl From<Color> for LightColor {

@@ -39,6 +39,8 @@ pub enum PartKind {
     Bounce,
     /// What rays about the refracted direction bring.
     Translucency,
+    /// What rays that particles sent on bring.
+    Particles,
 }
 
 /// A part of a colour.
@@ -72,6 +74,7 @@ impl Part {
             PartKind::Gloss => "gloss rays about the mirror direction".to_owned(),
             PartKind::Bounce => "light that other surfaces hand on".to_owned(),
             PartKind::Translucency => "rays scattered through the surface".to_owned(),
+            PartKind::Particles => "light that particles hand on".to_owned(),
         }
     }
 }
@@ -164,6 +167,7 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
                 // What particles bring came by another surface.
                 RayKind::Connection => PartKind::Bounce,
                 RayKind::Photon => continue,
+                RayKind::Scattered => PartKind::Particles,
             };
             parts.add(kind, light_name(prepared, child), rgb(&tree.basis, child.throughput * child.result));
         }

@@ -13,6 +13,7 @@ use crate::{
 use super::{
     document::{Lanes, Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
     drawn::drawn,
+    floating::floating,
     ghost::GhostScene,
     material,
     number::{Metres, Number, Place, Rgb, rgb},
@@ -237,6 +238,7 @@ fn node(prepared: &Prepared, basis: &Basis, id: usize, node: &TreeNode) -> Node 
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
         media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, basis, m)),
+        floating: node.floating.as_ref().map(|event| floating(scene, basis, event)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
         lobes: shading
             .map(|s| s.lobes.iter().map(|l| material::lobe(basis, l)).collect())
@@ -293,13 +295,13 @@ fn random(node: &TreeNode) -> Vec<Random> {
         .collect()
 }
 
-fn world(view: &View, p: Point3) -> Place {
+pub(super) fn world(view: &View, p: Point3) -> Place {
     let (exact, rounded) = (view.to_world(p), p.to_array());
     std::array::from_fn(|i| Metres::short(exact[i], rounded[i]))
 }
 
 /// The colour of light.
-fn of_light(basis: &Basis, s: Spectrum) -> Rgb {
+pub(super) fn of_light(basis: &Basis, s: Spectrum) -> Rgb {
     rgb(basis.to_rgb(s))
 }
 

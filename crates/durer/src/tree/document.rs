@@ -10,6 +10,7 @@ use super::{
     compare::Comparison,
     cut::LeftOut,
     drawn::Drawn,
+    floating::Floating,
     number::{Direction, Metres, Number, Place, Rgb},
 };
 
@@ -104,7 +105,7 @@ pub struct Node {
     pub origin: Place,
     /// Where it goes; unit length.
     pub direction: Direction,
-    /// Its length in metres: to the hit, or to the light. Null if it left the scene.
+    /// Its length in metres: to the hit, to the particle or to the light. Null if it left the scene.
     pub t: Option<Number>,
     /// Where it hit a surface.
     pub point: Option<Place>,
@@ -167,6 +168,9 @@ pub struct Node {
     pub blocker: Option<String>,
     /// The transparent bodies on both sides of the surface that was hit.
     pub media: Option<Media>,
+    /// What floats on the way; null where nothing does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floating: Option<Floating>,
     /// Reflection and refraction at the surface that was hit.
     pub fresnel: Option<Fresnel>,
     /// What the surface does with light.

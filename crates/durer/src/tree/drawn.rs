@@ -44,6 +44,7 @@ pub(super) fn drawn(basis: &Basis, choice: &Choice) -> Drawn {
         ChosenBy::Sharp => "sharp",
         ChosenBy::Joined => "joined",
         ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
+        ChosenBy::Phase => "phase",
     };
     Drawn {
         from: from.to_owned(),

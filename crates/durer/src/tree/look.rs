@@ -27,6 +27,7 @@ impl Look {
             "refraction" | "glossy-refraction" => ("T", "#1c3fd0", [0.1, 0.1, 0.9], "7 3"),
             "connection" => ("C", "#a08c14", [0.8, 0.7, 0.1], "4 2 1 2"),
             "photon" => ("F", "#b48c14", [0.9, 0.7, 0.1], "1 2"),
+            "scattered" => ("M", "#7a4bc0", [0.55, 0.35, 0.85], "5 2 1 2"),
             "passing" => ("P", "#8a6d3b", [0.6, 0.45, 0.2], "1 3"),
             _ => ("?", "#7a3b8a", [0.5, 0.2, 0.6], "7 3 2 3"),
         };
@@ -71,7 +72,12 @@ pub fn met(node: &Node, wording: Wording) -> String {
             let side = node.side.as_deref().unwrap_or("?");
             format!("{kind} hits {object}{}", full(format!(" ({side}) at {}", metres())))
         }
-        None => format!("{kind} leaves the scene"),
+        None => match &node.floating {
+            Some(floating) if floating.scattered.is_some() => {
+                format!("{kind} meets a particle of {}{}", floating.medium, full(format!(" at {}", metres())))
+            }
+            _ => format!("{kind} leaves the scene"),
+        },
     }
 }
 

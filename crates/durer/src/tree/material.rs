@@ -18,8 +18,7 @@ use super::{
 pub(super) fn media(scene: &Scene, basis: &Basis, media: &TreeMedia) -> Media {
     let body = |id| {
         let medium = scene.media.get(id);
-        let fills = |o: &&crate::Object| scene.media.of_material(o.material) == Some(id);
-        let object = scene.objects.iter().find(fills).map(|o| o.name.clone());
+        let object = scene.filled_with(id).map(|o| o.name.clone());
         Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta(basis)) }
     };
     Media {

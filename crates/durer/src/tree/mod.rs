@@ -9,6 +9,7 @@ mod document;
 mod dot;
 mod drawn;
 mod find;
+mod floating;
 mod format;
 pub mod ghost;
 mod glb;
@@ -32,6 +33,7 @@ pub use document::{
 pub use dot::dot;
 pub use drawn::Drawn;
 pub use find::{Find, Found};
+pub use floating::{Floating, Scattered};
 pub use format::{FORMATS, Format};
 pub use ghost::GhostScene;
 pub use glb::{TooLarge, glb};

@@ -4,6 +4,7 @@
 //! as the language has it, or by the placement itself where the inverse of the inverse differs in the last bit. Nodes that shapes share are
 //! written once, as objects with instances. Files that lie within the original go into a folder beside the text, as they
 //! are; paths of others stay relative to the folder of the original, or go the same way.
+mod media;
 mod mesh;
 mod place;
 mod value;
@@ -92,6 +93,7 @@ pub fn write(desc: &SceneDesc, assets: &FileAssets, plan: Plan<'_>) -> Result<Wr
     for line in plan.remarks.iter().flat_map(|remark| remark.lines()) {
         writer.line(&format!("# {line}"));
     }
+    writer.media();
     writer.options(plan.film, plan.camera);
     writer.line("\nWorldBegin");
     writer.textures();
@@ -192,6 +194,9 @@ impl Writer<'_> {
 
     fn camera(&mut self, camera: &CameraDesc) {
         let owner = format!("camera \"{}\"", camera.name);
+        if camera.media.is_some() {
+            self.sides(camera.media);
+        }
         self.times.frame(&camera.world_from_camera).write_inverse(&mut self.text);
         self.node("Camera", &camera.node, (&camera.name, &owner));
         self.line("Identity");
@@ -284,6 +289,7 @@ impl Writer<'_> {
 
     fn shape(&mut self, shape: &ShapeDesc) {
         let owner = owner(shape);
+        self.sides(shape.media);
         if shape.reverse_orientation {
             self.line("ReverseOrientation");
         }
@@ -333,7 +339,10 @@ impl Source {
 }
 
 /// What instances of an object have in common.
-type Shared = (Source, Option<u32>, bool, Option<*const Node>, String);
+type Shared = (Source, Option<u32>, bool, Option<*const Node>, String, Sides);
+
+/// The media inside and outside.
+type Sides = Option<[Option<usize>; 2]>;
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Object(Shared);
@@ -342,6 +351,7 @@ impl Object {
     fn of(shape: &ShapeDesc) -> Self {
         let material = shape.material.map(|m: Id<NamedNode>| m.index() as u32);
         let light = shape.area_light.as_ref().map(Arc::as_ptr);
-        Self((Source::of(shape), material, shape.reverse_orientation, light, shape.name.clone()))
+        let sides = shape.media.map(|m| [m.inside, m.outside].map(|medium| medium.map(Id::index)));
+        Self((Source::of(shape), material, shape.reverse_orientation, light, shape.name.clone(), sides))
     }
 }

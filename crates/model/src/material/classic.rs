@@ -84,6 +84,7 @@ impl Kind for Classic {
             .range(0.0, f32::INFINITY),
             Medium::PRIORITY,
             Medium::ABSORPTION,
+            Medium::INSIDE,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {

@@ -33,6 +33,7 @@ impl Kind for Dielectric {
             .range(0.1, 10.0),
             Medium::PRIORITY,
             Medium::ABSORPTION,
+            Medium::INSIDE,
             Roughness::BOTH,
             Roughness::U,
             Roughness::V,

@@ -1,9 +1,9 @@
-//! No surface at all: pbrt's boundary between two media, of which none is supported yet.
+//! No surface at all: pbrt's boundary between two media.
 use durer_core::math::Vector3;
 use durer_scene::{Args, Kind, Schema};
 
 use super::{Arriving, Material, Sent};
-use crate::{ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
+use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
 
 /// A surface that is a hole everywhere.
 #[derive(Debug)]
@@ -14,8 +14,8 @@ impl Kind for Interface {
     const SCHEMA: Schema = Schema {
         name: "interface",
         aliases: &["none"],
-        doc: "No surface: rays pass as if nothing were there.",
-        params: &[],
+        doc: "No surface: rays pass as if nothing were there, but media may begin and end here.",
+        params: &[Medium::INSIDE],
     };
     fn build(_args: &mut Args<'_>) -> Option<Self::Output> {
         Some(Box::new(Self))
@@ -25,6 +25,9 @@ impl Kind for Interface {
 impl Material for Interface {
     fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
         Bsdf::default()
+    }
+    fn is_nothing(&self) -> bool {
+        true
     }
     fn has_holes(&self) -> bool {
         true

@@ -66,6 +66,10 @@ pub trait Material: Debug + Send + Sync {
     fn medium(&self) -> Option<Medium> {
         None
     }
+    /// True if there is no surface at all: what has two sides all the same is passed unseen.
+    fn is_nothing(&self) -> bool {
+        false
+    }
     /// True if some points of the surface may be holes, see [`Material::is_hole`].
     fn has_holes(&self) -> bool {
         false

@@ -30,6 +30,7 @@ use durer_scene::{ColorInput, Entry, FloatInput, TextureValue};
 
 use crate::ShadeCx;
 
+pub(crate) use self::noise::noise;
 pub use bilerp::Bilerp;
 pub use checkerboard::Checkerboard;
 pub use constant::Constant;

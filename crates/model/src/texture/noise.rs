@@ -57,7 +57,7 @@ const LACUNARITY: f64 = 1.99;
 const MEAN_MAGNITUDE: f32 = 0.2;
 
 /// Noise at a point; 0 where it is not finite.
-pub(super) fn noise(p: [f64; 3]) -> f32 {
+pub(crate) fn noise(p: [f64; 3]) -> f32 {
     if !p.iter().all(|c| c.is_finite()) {
         return 0.0;
     }

@@ -37,6 +37,7 @@ pub(super) fn camera(bounds: Bounds3, options: &CompileOptions, diagnostics: &mu
         name: "automatic".to_owned(),
         node: Node::new("perspective", Params::new().float("fov", FOV).string("fovaxis", "y")),
         world_from_camera: Motion::still(look_at(center + towards_eye * distance, center)),
+        media: None,
     }
 }
 

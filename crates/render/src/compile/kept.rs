@@ -11,7 +11,7 @@ use durer_core::{
 use durer_model::{light::Extent, shape::Geometry, texture::Texture};
 use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc, TextureDesc};
 
-use super::{Before, CompileOptions, GeometryCounts, camera, compiled, geometry, nodes};
+use super::{Before, CompileOptions, GeometryCounts, camera, compiled, geometry, nodes, sides};
 use crate::{Scene, media};
 
 /// What shapes are built into, before they are placed.
@@ -119,8 +119,8 @@ impl Kept {
         let camera = options.lens.given_to(camera);
         let view = camera::view(&mut nodes, &camera, options, (self.moves, Some(self.origin)))?;
         let mut scene = scene.seen_by(view);
+        scene.start = media::start(&scene, sides::around(&camera));
         camera::focus(&mut scene, camera::pixel_scale(desc, options), camera.node.at, diagnostics)?;
-        scene.start = media::start(&scene);
         Some(scene)
     }
 

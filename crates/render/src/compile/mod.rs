@@ -12,6 +12,7 @@ mod lights;
 mod moved;
 mod nodes;
 mod report;
+mod sides;
 mod strands;
 
 use std::{
@@ -22,6 +23,7 @@ use std::{
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{
+    Volume,
     light::{Extent, Light},
     material::Material,
     texture::{Filters, Texture},
@@ -123,6 +125,7 @@ fn compiled(
     };
     let known = kept.filter(is_described_so);
     let new_textures = |nodes: &mut nodes::Builder<'_>| known.is_none().then(|| nodes.textures());
+    let inside = nodes.insides();
     let ((new_textures, mut materials), of_textures) =
         timed(|| (new_textures(&mut nodes), nodes.materials()));
     let (ground, of_shapes) = timed(|| match before {
@@ -150,6 +153,7 @@ fn compiled(
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let materials: Arc<[Box<dyn Material>]> = materials.into();
     let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
+    let volumes = nodes.volumes(&render_from_world);
     let lights = nodes.lights(&all_lights, (&ground.built, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,
@@ -174,11 +178,28 @@ fn compiled(
     if diagnostics.has_errors() {
         return None;
     }
-    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, extent };
+    let sides = media::Media::new((0..).zip(&desc.shapes).map(|(index, shape)| {
+        let material = placed.objects[index].material;
+        (
+            (material, shape.media),
+            sides::medium(shape, &*materials[material as usize], inside.get(material as usize)),
+        )
+    }));
+    let made = Made {
+        textures,
+        materials,
+        volumes,
+        media: sides,
+        lights,
+        placed: placed.clone(),
+        view,
+        report,
+        extent,
+    };
     let mut scene = made.scene(desc);
     let pixel_scale = camera::pixel_scale(desc, options);
     camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
-    scene.start = media::start(&scene);
+    scene.start = media::start(&scene, sides::around(&camera));
     let textures = Arc::clone(&scene.textures);
     let kept = shared.map(|ground| {
         let described = known.map_or_else(|| desc.textures.as_slice().into(), |k| Arc::clone(&k.described));
@@ -203,6 +224,8 @@ fn placed(
 struct Made {
     textures: Arc<[Box<dyn Texture>]>,
     materials: Arc<[Box<dyn Material>]>,
+    volumes: Vec<Volume>,
+    media: Media,
     lights: lights::Lights,
     placed: geometry::Placed,
     view: View,
@@ -214,7 +237,7 @@ struct Made {
 impl Made {
     /// The scene, neither focused nor told which bodies the camera is in.
     fn scene(self, desc: &SceneDesc) -> Scene {
-        let Self { textures, materials, lights, placed, view, report, extent } = self;
+        let Self { textures, materials, volumes, media, lights, placed, view, report, extent } = self;
         let lights::Lights { lights, names: light_names, .. } = lights;
         let those = |is: fn(&dyn Light) -> bool| {
             (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect()
@@ -240,7 +263,9 @@ impl Made {
             targets: placed.targets,
             shapes: placed.shapes,
             movers: placed.movers,
-            media: Arc::new(Media::new(&materials)),
+            media: Arc::new(media),
+            volumes: volumes.into(),
+            volume_names: desc.media.iter().map(|medium| medium.name.clone()).collect(),
             is_passed: materials
                 .iter()
                 .any(|m| m.is_passed() || m.medium().is_some_and(|m| m.priority.is_some())),
@@ -257,16 +282,18 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (made, start.elapsed())
 }
 
-/// The integrator of a description that asks for none.
-pub fn default_integrator() -> Node {
-    Node::new("path", durer_scene::Params::new())
+/// The integrator of a description that asks for none: paths, which heed media if there are any.
+pub fn default_integrator(desc: &SceneDesc) -> Node {
+    let kind = if desc.media.is_empty() { "path" } else { "volpath" };
+    Node::new(kind, durer_scene::Params::new())
 }
 
 /// What is used for an integrator of pbrt that we do not have: paths of as many bounces, which see most of the same light.
-pub fn stand_in_integrator(node: &Node) -> Option<Node> {
+pub fn stand_in_integrator(node: &Node, desc: &SceneDesc) -> Option<Node> {
     let mut params = durer_scene::Params::new();
     if let Some(depth) = node.params.get("maxdepth") {
         params.push(depth.clone());
     }
-    NOT_YET.contains(&node.kind.as_str()).then(|| Node::new("path", params))
+    let usual = default_integrator(desc);
+    NOT_YET.contains(&node.kind.as_str()).then_some(Node { params, ..usual })
 }

@@ -28,7 +28,7 @@ pub use bdpt::Bidirectional;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
 pub use light_tracing::LightTracing;
-pub use path::{Direct, Path};
+pub use path::{Direct, Path, VolPath};
 pub use survey::{Survey, Surveyed};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
@@ -69,6 +69,7 @@ pub enum Particles {
 
 /// What is traced.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant, reason = "made once for each sample, and never kept")]
 pub enum Start<'a> {
     /// An eye ray.
     Eye(PathRay),
@@ -172,6 +173,7 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Whitted>(),
     Entry::of::<Distributed>(),
     Entry::of::<Path>(),
+    Entry::of::<VolPath>(),
     Entry::of::<Direct>(),
     Entry::of::<LightTracing>(),
     Entry::of::<Bidirectional>(),
@@ -180,7 +182,7 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
 ];
 
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
-pub const PATHS: &[&str] = &["path", "direct", "light", "bdpt"];
+pub const PATHS: &[&str] = &["path", "volpath", "direct", "light", "bdpt"];
 
 /// Bounces of those.
 const PATH_DEPTH: ParamSpec = ParamSpec::new(

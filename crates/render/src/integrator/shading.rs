@@ -17,6 +17,9 @@ use crate::{Object, SampleCx, footprint::Onlooker};
 /// Shadow rays use sampler branches from here on; scattered rays use those below.
 pub(super) const LIGHT_BRANCH: u32 = 1 << 16;
 
+/// What floats on the way of a ray uses sampler branches from here on.
+pub(super) const MEDIUM_BRANCH: u32 = 1 << 14;
+
 /// A surface point with its lobes.
 pub(super) struct Shading {
     /// What was hit.

@@ -15,7 +15,7 @@ use durer_core::{
     math::{Point3, Ray, Vector3},
     spectrum::Basis,
 };
-use durer_model::{Medium, Surface, bsdf::BranchKind};
+use durer_model::{Hull, Medium, Surface, bsdf::BranchKind};
 
 use super::{Imbalance, MediumStack};
 use crate::{Object, Scene};
@@ -30,7 +30,7 @@ pub(crate) enum Boundary {
     Own,
     /// Between two media: index of refraction on the far side divided by that on the near side.
     Between(f32),
-    /// Nothing: both sides are filled by the same.
+    /// Nothing: both sides are filled by the same, or media meet without a surface.
     Passed,
 }
 
@@ -92,9 +92,16 @@ impl Scene {
         let Some(medium) = self.medium_of(object) else { return crossing };
         crossing.disperses = *basis != Basis::Rgb && self.media.get(medium).dispersion.is_some();
         let skin = Skin { object, medium, is_entered: surface.is_outside(wo) };
-        if self.media.get(medium).priority.is_none() {
+        let known = self.media.get(medium);
+        if known.priority.is_none() {
             if let Err(imbalance) = skin.cross(&mut crossing.behind) {
                 complain(object, imbalance);
+            }
+            if let Some(fill) = if skin.is_entered { known.inside } else { known.outside } {
+                crossing.behind.agree(fill, &self.media);
+            }
+            if known.hull == Hull::Open {
+                crossing.boundary = Boundary::Passed;
             }
             return crossing;
         }
@@ -147,7 +154,7 @@ impl Scene {
 
     /// The medium behind surfaces of an object.
     pub(crate) fn medium_of(&self, object: Id<Object>) -> Option<Id<Medium>> {
-        self.media.of_material(self.object(object).material)
+        self.media.of_object(object)
     }
 }
 

@@ -3,13 +3,19 @@
 //! Every path ray carries a [`MediumStack`]: the bodies entered and not yet left. What fills the place is, of the bodies
 //! with a priority, the one of the highest (Schmidt and Budge 2002); of equal ones that of larger index, so that the order
 //! in which they were entered does not matter. A body without a priority is taken to lie within what the ray was in.
+//!
+//! What floats there is what the present body says, else the one around it, else what floats around everything. Files may
+//! say what is on both sides of a surface, as pbrt's do: behind it that is there, whatever the account says.
 mod crossing;
 mod imbalances;
 mod start;
 
-use durer_core::{Id, spectrum::Basis};
-use durer_model::{Medium, material::Material};
+use std::{collections::HashMap, hash::Hash};
 
+use durer_core::{Id, spectrum::Basis};
+use durer_model::{Fill, Hull, Medium};
+
+use crate::Object;
 pub(crate) use crossing::{Boundary, Crossing};
 pub use imbalances::{ImbalanceTotals, Imbalances};
 pub(crate) use start::{around, start};
@@ -18,7 +24,9 @@ pub(crate) use start::{around, start};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Media {
     list: Vec<Medium>,
-    of_material: Vec<Option<Id<Medium>>>,
+    of_object: Vec<Option<Id<Medium>>>,
+    /// One of them is the inside of a body.
+    bodies: bool,
 }
 
 /// What fills a place.
@@ -28,11 +36,13 @@ pub(crate) struct Present {
     pub(crate) medium: Option<Id<Medium>>,
     /// Absolute index of refraction.
     pub(crate) eta: f32,
+    /// What floats there.
+    pub(crate) fill: Fill,
 }
 
 impl Media {
-    /// The media of these materials.
-    pub(crate) fn new(materials: &[Box<dyn Material>]) -> Self {
+    /// Those that objects have behind their surfaces. Objects of the same `key` have the same.
+    pub(crate) fn new<K: Eq + Hash>(objects: impl Iterator<Item = (K, Option<Medium>)>) -> Self {
         let mut list: Vec<Medium> = Vec::new();
         let mut number = |medium: Medium| {
             let known = list.iter().position(|m| *m == medium);
@@ -41,16 +51,23 @@ impl Media {
                 list.len() - 1
             }) as u32)
         };
-        let of_material = materials.iter().map(|m| m.medium().map(&mut number)).collect();
-        Self { list, of_material }
+        let mut known: HashMap<K, Option<Id<Medium>>> = HashMap::new();
+        let of_object =
+            objects.map(|(key, medium)| *known.entry(key).or_insert_with(|| medium.map(&mut number)));
+        let of_object = of_object.collect();
+        Self { of_object, bodies: list.iter().any(|m| m.hull == Hull::Body), list }
     }
     /// True if nothing is transparent.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
-    /// The medium behind surfaces of a material.
-    pub fn of_material(&self, material: u32) -> Option<Id<Medium>> {
-        self.of_material.get(material as usize).copied().flatten()
+    /// True if there are transparent bodies.
+    pub(crate) fn has_bodies(&self) -> bool {
+        self.bodies
+    }
+    /// The medium behind surfaces of an object.
+    pub fn of_object(&self, object: Id<Object>) -> Option<Id<Medium>> {
+        self.of_object.get(object.index()).copied().flatten()
     }
     /// A medium.
     pub fn get(&self, id: Id<Medium>) -> &Medium {
@@ -71,12 +88,29 @@ pub(crate) enum Imbalance {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MediumStack {
     ids: [u32; Self::CAPACITY],
+    /// What floats around all of them: one more than the number of the volume, or 0.
+    around: u16,
     len: u8,
 }
 
 impl MediumStack {
     /// Most bodies that a ray can be in at once.
     pub const CAPACITY: usize = 8;
+    /// Most volumes of a scene.
+    pub(crate) const MOST_VOLUMES: usize = u16::MAX as usize;
+
+    /// No bodies, and what floats where there are none.
+    pub(crate) fn within(around: Fill) -> Self {
+        let mut stack = Self::default();
+        stack.surround(around);
+        stack
+    }
+    fn surround(&mut self, around: Fill) {
+        self.around = match around {
+            Fill::Nothing => 0,
+            Fill::Volume(number) => number as u16 + 1,
+        };
+    }
 
     /// True in empty space.
     pub fn is_empty(&self) -> bool {
@@ -104,23 +138,49 @@ impl MediumStack {
     }
     /// What fills the place where the ray is.
     pub(crate) fn present(&self, media: &Media, basis: &Basis) -> Present {
-        let mut present = Present { medium: None, eta: 1.0 };
+        let around = match self.around {
+            0 => Fill::Nothing,
+            number => Fill::Volume(u32::from(number) - 1),
+        };
+        let mut present = Present { medium: None, eta: 1.0, fill: around };
         let mut winner: Option<&Medium> = None;
         for id in self.iter() {
             let medium = media.get(id);
             if medium.priority.is_none() {
-                present = Present { medium: Some(id), eta: present.eta * medium.eta(basis) };
+                let fill = medium.inside.unwrap_or(present.fill);
+                present = match medium.hull {
+                    Hull::Body => Present { medium: Some(id), eta: present.eta * medium.eta(basis), fill },
+                    Hull::Sheet | Hull::Open => Present { fill, ..present },
+                };
             } else if winner.is_none_or(|w| yields(w, medium)) {
                 winner = Some(medium);
-                present = Present { medium: Some(id), eta: medium.eta(basis) };
+                let fill = medium.inside.unwrap_or_default();
+                present = Present { medium: Some(id), eta: medium.eta(basis), fill };
             }
         }
         present
+    }
+    /// Makes the account agree with a surface behind which, as it says, `fill` floats. Where a body of a priority is present
+    /// it has its own.
+    fn agree(&mut self, fill: Fill, media: &Media) {
+        let has_priority = |id: &Id<Medium>| media.get(*id).priority.is_some();
+        if self.iter().any(|id| has_priority(&id)) || self.present(media, &Basis::Rgb).fill == fill {
+            return;
+        }
+        let silent = self.iter().filter(|id| media.get(*id).inside.is_none());
+        let mut agreed = Self::within(fill);
+        for id in silent {
+            // No more than before.
+            let _ = agreed.enter(id);
+        }
+        *self = agreed;
     }
 }
 
 /// Whether `present` gives way to `other`, both with a priority: a total order of different media.
 fn yields(present: &Medium, other: &Medium) -> bool {
-    let key = |m: &Medium| (m.priority, m.eta_d.to_bits(), m.absorption.rgb.map(f32::to_bits));
+    let key = |m: &Medium| {
+        (m.priority, m.eta_d.to_bits(), m.absorption.rgb.map(f32::to_bits), (m.inside, m.outside, m.hull))
+    };
     key(present) < key(other)
 }

@@ -12,7 +12,7 @@ use durer_core::{
     math::{Point3, Ray, Vector3, float},
     spectrum::Basis,
 };
-use durer_model::Medium;
+use durer_model::{Fill, Hull, Medium};
 
 use super::{Imbalance, MediumStack};
 use crate::{SampleCx, Scene, probe::NoProbe};
@@ -24,9 +24,9 @@ const ENOUGH: u32 = DIRECTIONS * 2 / 5;
 /// Surfaces met at most in a direction.
 const MOST_SURFACES: u32 = 1000;
 
-/// The bodies that eye rays start in.
-pub(crate) fn start(scene: &Scene) -> MediumStack {
-    let mut stack = MediumStack::default();
+/// The bodies that eye rays start in, and what floats there, if the file says so.
+pub(crate) fn start(scene: &Scene, said: Option<Fill>) -> MediumStack {
+    let mut stack = MediumStack::within(said.unwrap_or_default());
     if scene.media.is_empty() {
         return stack;
     }
@@ -47,6 +47,9 @@ pub(crate) fn start(scene: &Scene) -> MediumStack {
     for ((medium, _), _) in around {
         // More than fit: rays that leave the others will be counted.
         let _ = stack.enter(Id::new(medium));
+    }
+    if let Some(said) = said {
+        stack.agree(said, &scene.media);
     }
     stack
 }
@@ -81,11 +84,13 @@ fn left_unentered(scene: &Scene, mut ray: Ray) -> Vec<(u32, u32)> {
     let mut stack = MediumStack::default();
     let mut left: Vec<(u32, u32)> = Vec::new();
     for _ in 0..MOST_SURFACES {
-        let Some(hit) = scene.closest(&cx, &ray, &mut NoProbe, ()) else { break };
+        let Some(hit) = scene.closest_boundary(&cx, &ray, &mut NoProbe, ()) else { break };
         let (object, mut surface) = scene.surface(&ray, &hit);
         let crossing =
             scene.cross(&cx.basis, (object, &mut surface), (-d, time, hit.t), &stack, |of, imbalance| {
-                let medium = scene.medium_of(of).map(|id: Id<Medium>| id.index() as u32);
+                // Of sheets most are open: nobody is in them.
+                let has_inside = |id: &Id<Medium>| scene.media.get(*id).hull != Hull::Sheet;
+                let medium = scene.medium_of(of).filter(has_inside).map(|id| id.index() as u32);
                 if let (Some(medium), Imbalance::LeftUnentered) = (medium, imbalance) {
                     let before = left.iter().filter(|(m, _)| *m == medium).count();
                     left.push((medium, before as u32));

@@ -48,6 +48,36 @@ pub struct Shaded<'a> {
     pub blurred_sky: Spectrum,
 }
 
+/// What was on the way of a ray among what floats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floating {
+    /// The volume, by its number in the scene.
+    pub volume: u32,
+    /// What light from the end of the way is multiplied with: what is left of it, or scattered, by the density of this end.
+    pub weight: Spectrum,
+    /// What the volume sends out towards the start of the ray: part of its own light.
+    pub sent: Spectrum,
+    /// The probability of getting as far, over all lanes; 1 where nothing is drawn.
+    pub passed: f32,
+    /// The particle that the ray met, if it met one.
+    pub particle: Option<Particle>,
+}
+
+/// A place where light is scattered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Parameter of the ray.
+    pub t: f32,
+    /// Where it is, in render space.
+    pub p: Point3,
+    /// Absorption coefficient there, 1/m.
+    pub sigma_a: Spectrum,
+    /// Scattering coefficient there, 1/m.
+    pub sigma_s: Spectrum,
+    /// Mean cosine of the deflection: that of the phase function of Henyey and Greenstein.
+    pub g: f32,
+}
+
 /// Random numbers of one decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RandomNumbers {
@@ -83,6 +113,8 @@ pub enum ChosenBy {
     Sharp,
     /// It was drawn from a lobe that spreads.
     Lobe,
+    /// It was drawn from the phase function of a particle.
+    Phase,
     /// It leads to a vertex of a walk from the other end.
     Joined,
 }
@@ -93,6 +125,7 @@ pub enum ChosenBy {
 ///   division by `pdf`.
 /// - [`ChosenBy::Sharp`]: `weight` is what the lobe reflects or transmits; `f`, `cos`, `pdf` do not apply.
 /// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`; `chance` is 1.
+/// - [`ChosenBy::Phase`]: `weight = f / pdf`.
 ///
 /// - [`ChosenBy::Joined`]: `weight = f cos mis cos' / d²`, with the cosine at the other vertex and the distance; it multiplies
 ///   what that vertex sends. Of particles `weight` is 0: what they bring is part of other rays.
@@ -107,7 +140,7 @@ pub struct Choice {
     /// Value of all lobes for this direction if a light was sampled, else of the one, 1/sr. If `mis` differs from lobe to
     /// lobe it holds each by its share, with the same mean over the lanes.
     pub f: Option<Spectrum>,
-    /// Cosine between the direction and the shading normal, 0 to 1.
+    /// Cosine between the direction and the shading normal, 0 to 1; 1 at particles, which have none.
     pub cos: Option<f32>,
     /// Density of choosing this direction, 1/sr; `None` for lights without extent and sharp directions.
     pub pdf: Option<f32>,

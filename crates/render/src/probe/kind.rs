@@ -18,17 +18,20 @@ pub enum RayKind {
     GlossyReflection,
     /// Drawn about a refracted direction: translucency.
     GlossyRefraction,
-    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another.
+    /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another, or where
+    /// a medium begins or ends.
     Passing,
     /// Between a vertex of a walk from one end of a path and one from the other, or the camera.
     Connection,
     /// The way of a particle from a light.
     Photon,
+    /// Sent on by a particle that floats.
+    Scattered,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Eye,
         Self::Shadow,
         Self::Reflection,
@@ -38,6 +41,7 @@ impl RayKind {
         Self::Passing,
         Self::Connection,
         Self::Photon,
+        Self::Scattered,
     ];
 
     /// The kind of ray that follows a perfectly sharp direction.
@@ -72,6 +76,7 @@ impl RayKind {
             Self::Passing => "passing",
             Self::Connection => "connection",
             Self::Photon => "photon",
+            Self::Scattered => "scattered",
         }
     }
 }

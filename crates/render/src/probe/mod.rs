@@ -15,7 +15,7 @@ mod tree;
 mod walk;
 
 pub use counters::Counters;
-pub use event::{Choice, ChosenBy, LightEvent, RandomNumbers, Shaded};
+pub use event::{Choice, ChosenBy, Floating, LightEvent, Particle, RandomNumbers, Shaded};
 pub use kind::RayKind;
 pub use node::{BoxTest, TreeHit, TreeMedia, TreeNode, TreeShading};
 pub use recorder::Recorder;
@@ -33,7 +33,7 @@ use crate::{Object, PathRay};
 /// An observer. Every method does nothing unless overridden.
 pub trait Probe: TraversalProbe {
     /// True if the probe wants details that cost extra work. Without it nothing is told by [`Probe::chosen`],
-    /// [`Probe::shaded`] and [`Probe::limit`].
+    /// [`Probe::shaded`], [`Probe::floating`] and [`Probe::limit`].
     const RECORDS: bool = false;
 
     /// True if no more rays are wanted: those that follow are given up. Only asked if the probe [`Probe::RECORDS`].
@@ -55,6 +55,10 @@ pub trait Probe: TraversalProbe {
     }
     /// How that surface scatters, and what it sends out by itself.
     fn shaded(&mut self, id: Self::Id, event: &Shaded<'_>) {
+        let _ = (id, event);
+    }
+    /// What floats was on its way.
+    fn floating(&mut self, id: Self::Id, event: &Floating) {
         let _ = (id, event);
     }
     /// The light that the ray met could have been sampled too: the density of that, 1/sr, and the share that is left to

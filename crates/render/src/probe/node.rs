@@ -10,7 +10,7 @@ use durer_model::{
     texture::TextureLookup,
 };
 
-use super::{Choice, LightEvent, Limit, RandomNumbers, RayKind, StopReason};
+use super::{Choice, Floating, LightEvent, Limit, Particle, RandomNumbers, RayKind, StopReason};
 use crate::{MediumStack, Object, PathRay};
 
 /// Where a ray met a surface. Places and directions are in render space.
@@ -109,6 +109,8 @@ pub struct TreeNode {
     pub hit: Option<TreeHit>,
     /// How that was shaded. `None` without a hit, and for shadow rays.
     pub shading: Option<TreeShading>,
+    /// What floats on its way; `None` where nothing does, and for shadow rays.
+    pub floating: Option<Floating>,
     /// What a shadow ray found out.
     pub light: Option<LightEvent>,
     /// Why nothing follows.
@@ -156,9 +158,14 @@ impl TreeNode {
     pub fn is_traced(&self) -> bool {
         !self.stop.is_some_and(StopReason::is_untraced)
     }
-    /// Ray length, in metres: to the hit, or to the light.
+    /// The particle that it met.
+    pub fn particle(&self) -> Option<&Particle> {
+        self.floating.as_ref()?.particle.as_ref()
+    }
+    /// Ray length, in metres: to the hit, to the particle or to the light.
     pub fn length(&self) -> Option<f32> {
         match (&self.hit, &self.light) {
+            (None, None) => self.particle().map(|particle| particle.t),
             (Some(hit), _) => Some(hit.hit.t * self.d.length()),
             (None, Some(light)) if light.visible && light.point.is_some() => Some(self.d.length()),
             _ => None,

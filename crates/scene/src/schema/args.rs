@@ -1,5 +1,6 @@
 //! Checked access to the parameters of a node.
 mod nested;
+mod voxels;
 
 use std::sync::Arc;
 
@@ -184,6 +185,13 @@ impl<'a> Args<'a> {
     pub fn error(&mut self, name: &str, message: impl Into<String>) {
         let at = self.place(name);
         self.error_at(at, message.into());
+    }
+
+    /// Complains that the text of parameter `name` is none of `known`; `what` is what messages call it.
+    pub fn unknown(&mut self, name: &str, what: &str, known: impl IntoIterator<Item = &'static str>) {
+        self.sound = false;
+        let at = self.place(name);
+        self.diagnostics.unknown(at, what, self.text(name), known);
     }
 
     /// Warns about parameter `name`, or about the node if it is not given.

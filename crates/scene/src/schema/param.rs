@@ -40,6 +40,8 @@ pub enum ParamType {
     Color,
     /// A colour, or a colour texture's name.
     ColorTexture,
+    /// Any number of linear RGB colours.
+    Colors,
     /// A number, or a float texture's name.
     FloatTexture,
 }
@@ -60,6 +62,7 @@ impl ParamType {
             Self::Index => &[V::Float, V::Spectrum],
             Self::Color => &[V::Rgb, V::Spectrum, V::Blackbody],
             Self::ColorTexture => &[V::Rgb, V::Spectrum, V::Blackbody, V::Texture],
+            Self::Colors => &[V::Rgb],
             Self::FloatTexture => &[V::Float, V::Texture],
         }
     }
@@ -74,6 +77,7 @@ impl ParamType {
                 | Self::Vector3s
                 | Self::Normals
                 | Self::Texts
+                | Self::Colors
         )
     }
 }

@@ -69,6 +69,7 @@ fn word(ty: ParamType) -> &'static str {
         ParamType::File => "file",
         ParamType::Index => "index",
         ParamType::Color => "color",
+        ParamType::Colors => "colors",
         ParamType::ColorTexture => "color-texture",
         ParamType::FloatTexture => "float-texture",
     }

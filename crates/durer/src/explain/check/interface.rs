@@ -80,7 +80,7 @@ impl Checked<'_> {
         let scene = &self.prepared.scene;
         let shading = node.shading.as_ref()?;
         shading.fresnel.as_ref()?;
-        let medium = scene.media.of_material(self.object(hit).material)?;
+        let medium = scene.media.of_object(hit.object)?;
         let own = scene.media.get(medium);
         let before = node.path.media;
         let basis = &self.tree.basis;

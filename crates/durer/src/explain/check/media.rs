@@ -2,7 +2,7 @@
 use super::{Checked, Law};
 use crate::{
     Id, MediumStack,
-    model::Medium,
+    model::{Hull, Medium},
     probe::{NoProbe, RayKind, TreeHit, TreeNode},
 };
 
@@ -17,7 +17,12 @@ impl Checked<'_> {
     pub(super) fn media(&mut self, index: usize, node: &TreeNode, hit: &TreeHit) {
         let scene = &self.prepared.scene;
         let Some(shading) = &node.shading else { return };
-        let Some(medium) = scene.media.of_material(self.object(hit).material) else { return };
+        let Some(medium) = scene.media.of_object(hit.object) else { return };
+        // Of others both sides are said, or nothing but media begin and end there.
+        let own = scene.media.get(medium);
+        if own.hull != Hull::Body || own.inside.is_some() {
+            return;
+        }
         // Ray casting knows no bodies.
         if self.children[index].is_empty() && shading.media.is_none() {
             return;

@@ -22,6 +22,11 @@ impl Teller<'_> {
     pub(super) fn surface(&self, index: usize) -> Vec<String> {
         let node = self.node(index);
         let mut sentences = vec![self.met(index)];
+        sentences.extend(self.floated(node));
+        if node.particle().is_some() {
+            sentences.extend(self.lights(index));
+            return sentences;
+        }
         let (Some(hit), Some(shading)) = (&node.hit, &node.shading) else { return sentences };
         if self.children[index].iter().any(|&c| self.node(c as usize).kind == RayKind::Passing) {
             let name = &self.prepared.scene.object(hit.object).name;
@@ -45,6 +50,9 @@ impl Teller<'_> {
     fn met(&self, index: usize) -> String {
         let node = self.node(index);
         let ray = self.ray(index);
+        if let (Some(floating), Some(particle)) = (&node.floating, node.particle()) {
+            return self.met_particle(&ray, floating, particle);
+        }
         let Some(hit) = &node.hit else {
             let result = self.lanes(node.result);
             return match node.result.is_black() {
@@ -82,6 +90,7 @@ impl Teller<'_> {
             RayKind::Passing => "ray that goes on",
             RayKind::Connection => "joint",
             RayKind::Photon => "particle",
+            RayKind::Scattered => "ray that a particle sends on",
         };
         let brings = match self.share(node) {
             share if share > 0.0 => format!(", which brings {},", percent(share)),
@@ -112,7 +121,7 @@ impl Teller<'_> {
     /// Absorption on the way of a ray to its hit.
     fn absorbed(&self, node: &TreeNode, hit: &TreeHit, shading: &TreeShading) -> Option<String> {
         let arrived = shading.arrived;
-        if arrived == Spectrum::ONE {
+        if arrived == Spectrum::ONE || node.floating.is_some() {
             return None;
         }
         let media = &self.prepared.scene.media;
@@ -145,8 +154,7 @@ impl Teller<'_> {
     /// A body by the name of something that it fills.
     pub(super) fn body(&self, id: crate::Id<crate::model::Medium>) -> String {
         let scene = &self.prepared.scene;
-        let fills = |o: &&crate::Object| scene.media.of_material(o.material) == Some(id);
-        scene.objects.iter().find(fills).map_or_else(|| "a body".to_owned(), |o| format!("\"{}\"", o.name))
+        scene.filled_with(id).map_or_else(|| "a body".to_owned(), |o| format!("\"{}\"", o.name))
     }
 
     /// Emission, ambient term and blurred sky.

@@ -1,6 +1,7 @@
 //! The text: a paragraph about the pixel, then what happened along the ray that brought most.
 mod bend;
 mod data;
+mod floating;
 mod hit;
 mod light;
 mod pixel;
@@ -120,7 +121,8 @@ impl<'a> Teller<'a> {
                 .iter()
                 .map(|&c| c as usize)
                 .filter(|&c| self.node(c).kind.is_followed() && self.node(c).is_traced())
-                .filter(|&c| self.node(c).hit.is_some() && self.rank(self.node(c)) >= WORTH_DETAIL)
+                .filter(|&c| self.node(c).hit.is_some() || self.node(c).floating.is_some())
+                .filter(|&c| self.rank(self.node(c)) >= WORTH_DETAIL)
                 .collect();
             next.sort_by(|&a, &b| self.rank(self.node(a)).total_cmp(&self.rank(self.node(b))));
             let brightest = next.len().checked_sub(1);

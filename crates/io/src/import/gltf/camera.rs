@@ -34,7 +34,7 @@ pub(super) fn camera(element: &Element<'_>, name: &str, world: &Motion) -> Check
     };
     let turned = DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
     let world_from_camera = carried(world, |m| rigid(m) * turned);
-    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera })
+    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera, media: None })
 }
 
 fn perspective(element: &Element<'_>) -> Checked<Node> {

@@ -284,6 +284,7 @@ impl<'w, 'a> Walk<'w, 'a> {
                 material,
                 reverse_orientation: false,
                 area_light: None,
+                media: None,
             });
         }
     }

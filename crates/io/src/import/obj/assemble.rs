@@ -77,6 +77,7 @@ pub(super) fn shapes(
             material: library.get(&key.material).or(default),
             reverse_orientation: false,
             area_light: None,
+            media: None,
         });
     }
 }

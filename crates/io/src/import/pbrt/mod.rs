@@ -12,6 +12,7 @@ mod film;
 mod input;
 mod keys;
 mod lexer;
+mod media;
 mod nodes;
 mod number;
 mod params;

@@ -1,12 +1,12 @@
 //! The directives that name a kind of thing in the world and give it parameters.
 use std::sync::Arc;
 
-use durer_scene::{Data, LightDesc, MaterialRef, Node, Param, TextureValue, ValueType};
+use durer_scene::{Data, LightDesc, Location, MaterialRef, Node, Param, TextureValue, ValueType};
 
 use super::{
     cutout::take_alpha,
     input::{Reported, Word},
-    lexer::{Token, TokenKind},
+    lexer::Token,
     params::{ParamList, stored, take},
     parser::Parser,
     retired,
@@ -45,7 +45,7 @@ impl Parser<'_> {
     }
 
     /// Adds what `Attribute` gave to `target`.
-    fn inherit(&mut self, target: Target, mut params: ParamList, at: &Word) -> ParamList {
+    pub(super) fn inherit(&mut self, target: Target, mut params: ParamList, at: &Word) -> ParamList {
         let inherited = self.state.inherited.of(target);
         let missing = inherited.iter().filter(|new| params.iter().all(|own| own.name != new.name));
         let missing: Vec<_> = missing.collect();
@@ -68,10 +68,7 @@ impl Parser<'_> {
             "light" => Target::Light,
             "material" => Target::Material,
             "texture" => Target::Texture,
-            "medium" => {
-                self.warn_once("medium", word.at, "media are not supported yet; they are ignored");
-                return Ok(());
-            }
+            "medium" => Target::Medium,
             other => {
                 let words = ["shape", "light", "material", "texture", "medium"];
                 self.input.diagnostics.unknown(word.at, "target of Attribute", other, words);
@@ -104,6 +101,8 @@ impl Parser<'_> {
             material,
             reverse: self.state.reverse,
             area_light: self.state.area_light.clone(),
+            // Where both sides are the same the surface says nothing, as in pbrt.
+            media: self.state.media.filter(|sides| sides.inside != sides.outside),
         });
         if let Err(message) = fits
             && self.first_time(message)
@@ -173,21 +172,30 @@ impl Parser<'_> {
     /// The node of a named material, whose kind is the parameter "string type".
     fn named_node(&mut self, params: ParamList, name: &Word) -> Option<Node> {
         let mut params = self.inherit(Target::Material, params, name);
-        let Some(ty) = take(&mut params, "type") else {
-            self.input.error(name.at, "MakeNamedMaterial needs the parameter \"string type\"");
+        let (kind, at) = self.type_of(&mut params, (name, "MakeNamedMaterial"))?;
+        let word = Word { text: kind.clone(), at: name.at };
+        if retired::complain("material", &word, self.input.diagnostics) {
+            return None;
+        }
+        let kind = if kind.is_empty() { "interface".to_owned() } else { kind };
+        Some(Node { kind, params: stored(params), at })
+    }
+
+    /// Takes the kind of a named node, which is its parameter "string type"; complains if there is none.
+    pub(super) fn type_of(
+        &mut self,
+        params: &mut ParamList,
+        (name, directive): (&Word, &str),
+    ) -> Option<(String, Location)> {
+        let Some(ty) = take(params, "type") else {
+            self.input.error(name.at, format!("{directive} needs the parameter \"string type\""));
             return None;
         };
         let (ValueType::String, Data::Strings(kinds)) = (ty.ty, ty.data) else {
             self.input.diagnostics.error(ty.at, "\"type\" must be a string");
             return None;
         };
-        let kind = kinds.into_iter().next().unwrap_or_default();
-        let word = Word { text: kind.clone(), at: name.at };
-        if retired::complain("material", &word, self.input.diagnostics) {
-            return None;
-        }
-        let kind = if kind.is_empty() { "interface".to_owned() } else { kind };
-        Some(Node { kind, params: stored(params), at: ty.at })
+        Some((kinds.into_iter().next().unwrap_or_default(), ty.at))
     }
 
     /// `NamedMaterial`
@@ -226,26 +234,5 @@ impl Parser<'_> {
             self.world.texture(&name, value, placed, self.input.diagnostics);
         }
         node.map(|_| ())
-    }
-
-    /// `MakeNamedMedium`
-    pub(super) fn medium(&mut self, head: Token) -> Result<(), Reported> {
-        let (name, _) = self.kind_and_params(head, "a name")?;
-        self.warn_once("medium", name.at, "media are not supported yet; they are ignored");
-        Ok(())
-    }
-
-    /// `MediumInterface`: one name or two; empty ones are the vacuum.
-    pub(super) fn medium_interface(&mut self, head: Token) -> Result<(), Reported> {
-        let inside = self.input.string(head, "the name of a medium")?;
-        let second = self.input.lexer.peek();
-        let outside = match second.kind {
-            TokenKind::Plain | TokenKind::Escaped => self.input.string(head, "the name of a medium")?.text,
-            _ => String::new(),
-        };
-        if !inside.text.is_empty() || !outside.is_empty() {
-            self.warn_once("medium", inside.at, "media are not supported yet; they are ignored");
-        }
-        Ok(())
     }
 }

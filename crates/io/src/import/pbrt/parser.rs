@@ -232,7 +232,7 @@ impl<'a> Parser<'a> {
             D::MakeNamedMaterial => self.make_named_material(head),
             D::NamedMaterial => self.named_material(head),
             D::Texture => self.texture(head),
-            D::MakeNamedMedium => self.medium(head),
+            D::MakeNamedMedium => self.make_named_medium(head),
             D::MediumInterface => self.medium_interface(head),
             D::Include | D::Import => self.include(directive, head),
         }

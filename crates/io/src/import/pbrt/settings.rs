@@ -34,7 +34,8 @@ impl Parser<'_> {
         let (kind, mut params) = self.kind_and_params(head, "a kind of camera")?;
         let name = self.name(&mut params);
         let node = Node { kind: kind.text, params: stored(params), at: kind.at.into() };
-        let camera = CameraDesc { name, node, world_from_camera: world_from_camera.motion(self.world.times) };
+        let world_from_camera = world_from_camera.motion(self.world.times);
+        let camera = CameraDesc { name, node, world_from_camera, media: self.state.media };
         let cameras = &mut self.world.desc.cameras;
         let full = cameras.len() >= MOST_CAMERAS;
         match cameras.iter_mut().find(|c| c.name == camera.name) {

@@ -1,7 +1,7 @@
 //! The graphics state and the blocks that save it.
 use std::sync::Arc;
 
-use durer_scene::{MaterialRef, Node, Span};
+use durer_scene::{MaterialRef, MediumInterface, Node, Span};
 
 use super::{
     directive::Directive,
@@ -20,6 +20,8 @@ pub(super) enum Target {
     Material,
     /// Textures.
     Texture,
+    /// Media.
+    Medium,
 }
 
 /// Parameters that later nodes take unless they give their own.
@@ -29,6 +31,7 @@ pub(super) struct Inherited {
     light: Arc<ParamList>,
     material: Arc<ParamList>,
     texture: Arc<ParamList>,
+    medium: Arc<ParamList>,
 }
 
 impl Inherited {
@@ -39,6 +42,7 @@ impl Inherited {
             Target::Light => &self.light,
             Target::Material => &self.material,
             Target::Texture => &self.texture,
+            Target::Medium => &self.medium,
         }
     }
     /// Adds parameters; a later one of the same name replaces the earlier. False if there are too many.
@@ -48,6 +52,7 @@ impl Inherited {
             Target::Light => &mut self.light,
             Target::Material => &mut self.material,
             Target::Texture => &mut self.texture,
+            Target::Medium => &mut self.medium,
         };
         let list = Arc::make_mut(list);
         list.retain(|old| params.iter().all(|new| new.name != old.name));
@@ -69,6 +74,8 @@ pub(super) struct State {
     pub(super) reverse: bool,
     /// Light that the next shapes send out.
     pub(super) area_light: Option<Arc<Node>>,
+    /// What is on the two sides of the next surfaces, and around the next camera, if anything was said.
+    pub(super) media: Option<MediumInterface>,
     /// From `Attribute`.
     pub(super) inherited: Inherited,
 }
@@ -81,6 +88,7 @@ impl State {
             material: None,
             reverse: false,
             area_light: None,
+            media: None,
             inherited: Inherited::default(),
         }
     }

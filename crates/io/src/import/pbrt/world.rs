@@ -10,8 +10,8 @@ use std::{
 
 use durer_core::Id;
 use durer_scene::{
-    Data, Diagnostics, MaterialRef, NamedNode, Node, Param, SceneDesc, ShapeDesc, ShapeSource, Span,
-    TextureDesc, TextureValue,
+    Data, Diagnostics, MaterialRef, MediumDesc, MediumInterface, MediumRef, NamedNode, Node, Param,
+    SceneDesc, ShapeDesc, ShapeSource, Span, TextureDesc, TextureValue,
 };
 
 use super::{
@@ -42,6 +42,7 @@ pub(super) struct PlacedShape {
     pub(super) material: Option<MaterialRef>,
     pub(super) reverse: bool,
     pub(super) area_light: Option<Arc<Node>>,
+    pub(super) media: Option<MediumInterface>,
 }
 
 impl PlacedShape {
@@ -57,6 +58,7 @@ impl PlacedShape {
             material: self.material,
             reverse_orientation: self.reverse,
             area_light: self.area_light,
+            media: self.media,
         })
     }
 }
@@ -76,6 +78,7 @@ pub(super) struct World<'a> {
     /// Seconds of the two matrices of a [`Placement`].
     pub(super) times: (f64, f64),
     materials: HashMap<String, Slot>,
+    media: HashMap<String, Slot>,
     /// By the material below and the parameter.
     pub(super) masks: HashMap<(Option<MaterialRef>, String), MaterialRef>,
     objects: HashMap<String, Slot>,
@@ -94,6 +97,7 @@ impl<'a> World<'a> {
             desc,
             times: (0.0, 1.0),
             materials: HashMap::new(),
+            media: HashMap::new(),
             masks: HashMap::new(),
             objects: HashMap::new(),
             textures: Default::default(),
@@ -135,6 +139,43 @@ impl<'a> World<'a> {
         self.materials.entry(name.to_owned()).or_insert_with(|| {
             materials.push(NamedNode { name: name.to_owned(), node: Node::default() });
             Slot { index: materials.len() - 1, defined: false, used: None }
+        })
+    }
+
+    /// Defines a medium, whose own space is where `placement` was when the shutter opened; `None` stands for one that could
+    /// not be read.
+    pub(super) fn define_medium(
+        &mut self,
+        name: &Word,
+        (node, placement): (Option<Node>, &Placement),
+        diagnostics: &mut Diagnostics,
+    ) {
+        let slot = self.medium_slot(&name.text);
+        if std::mem::replace(&mut slot.defined, true) {
+            diagnostics.error(name.at, format!("the medium \"{}\" is defined twice", name.text));
+            return;
+        }
+        let (index, world_from_medium) = (slot.index, placement.at(self.times.0, self.times));
+        if let (Some(medium), Some(node)) = (self.desc.media.get_mut(index), node) {
+            *medium = MediumDesc { name: name.text.clone(), node, world_from_medium };
+        }
+    }
+
+    /// The medium called `name`; an empty name is nothing.
+    pub(super) fn use_medium(&mut self, name: &Word) -> Option<MediumRef> {
+        if name.text.is_empty() {
+            return None;
+        }
+        let slot = self.medium_slot(&name.text);
+        slot.used.get_or_insert(name.at);
+        Some(Id::new(slot.index as u32))
+    }
+
+    fn medium_slot(&mut self, name: &str) -> &mut Slot {
+        let media = &mut self.desc.media;
+        self.media.entry(name.to_owned()).or_insert_with(|| {
+            media.push(MediumDesc { name: name.to_owned(), ..MediumDesc::default() });
+            Slot { index: media.len() - 1, defined: false, used: None }
         })
     }
 
@@ -219,6 +260,7 @@ impl<'a> World<'a> {
     /// Unfolds instances and complains about names that were never defined.
     pub(super) fn finish(mut self, diagnostics: &mut Diagnostics) {
         undefined("material", &self.materials, diagnostics);
+        undefined("medium", &self.media, diagnostics);
         undefined("object", &self.objects, diagnostics);
         let unused = self.objects.values().filter(|s| s.used.is_none()).count();
         if unused > 0 {

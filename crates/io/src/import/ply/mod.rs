@@ -245,6 +245,7 @@ fn place(mesh: Mesh, texture: Option<String>, complaints: &mut Vec<Complaint>, i
         material,
         reverse_orientation: false,
         area_light: None,
+        media: None,
     });
     debug_assert!(complaints.iter().all(|c| c.severity != Severity::Error));
 }

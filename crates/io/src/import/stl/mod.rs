@@ -90,6 +90,7 @@ fn place(solid: &Solid, imported: &mut Imported) {
         material: None,
         reverse_orientation: false,
         area_light: None,
+        media: None,
     });
 }
 

@@ -1,6 +1,9 @@
 //! Light that comes straight: sampled from a light that is chosen, or met by a ray.
 use durer_core::{math::Vector3, sampling::Dim, spectrum::Spectrum};
-use durer_model::light::{LightCx, LightSample};
+use durer_model::{
+    light::{LightCx, LightSample},
+    medium::Flight,
+};
 
 use super::{
     super::shading::{LIGHT_BRANCH, Lamp, Shading},
@@ -61,10 +64,14 @@ impl<P: Probe> Follow<'_, P> {
             return radiance;
         }
         if P::RECORDS {
-            self.report_light(&choosing, &asked, u());
+            self.report_light(&choosing, &asked, (asked.wi.z.abs(), u()));
         }
-        let light = self.walk.shadow(ray, (s, crossing), chosen.light, asked.weight, &sample, id);
-        radiance + asked.weight * light
+        let mut path = self.walk.shadow_path(ray, (s, crossing), chosen.light, asked.weight, &sample);
+        if self.walk.heeds_media {
+            path.density = Some(1.0 - asked.mis);
+        }
+        let arriving = (sample.point, sample.weight);
+        radiance + asked.weight * self.walk.send_shadow(&path, chosen.light as u32, arriving, id)
     }
 
     /// What of a sampled light is reflected, by the share that is left to it.
@@ -99,7 +106,7 @@ impl<P: Probe> Follow<'_, P> {
     }
 
     /// What surrounds the scene sends along a ray that left it.
-    pub(super) fn escape(&mut self, ray: &PathRay, id: P::Id) -> Spectrum {
+    pub(super) fn escape(&mut self, ray: &PathRay, flight: Option<&Flight>, id: P::Id) -> Spectrum {
         let cx = self.walk.cx;
         let asked = LightCx { basis: cx.basis, time: ray.ray.time };
         let mut sky = Spectrum::BLACK;
@@ -119,7 +126,10 @@ impl<P: Probe> Follow<'_, P> {
                 }
             };
         }
-        let sky = self.walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * sky;
+        let mut sky = self.walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * sky;
+        if let Some(flight) = flight {
+            sky = flight.weight * sky + flight.sent;
+        }
         self.walk.probe.local(id, sky);
         self.walk.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
         sky

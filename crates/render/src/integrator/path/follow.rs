@@ -5,6 +5,7 @@ use durer_accel::Hit;
 use durer_core::{math::Ray, sampling::Dim, spectrum::Spectrum};
 use durer_model::{
     bsdf::{BranchKind, Scattered},
+    medium::Flight,
     texture::Habit,
 };
 
@@ -37,14 +38,14 @@ struct Link<Id> {
 }
 
 /// What a hit leaves to do: its own radiance, and which ray follows, in the place of the one that hit.
-struct Step {
-    radiance: Spectrum,
-    next: Option<RayKind>,
+pub(super) struct Step {
+    pub(super) radiance: Spectrum,
+    pub(super) next: Option<RayKind>,
 }
 
 impl Step {
     /// Nothing follows.
-    fn end(radiance: Spectrum) -> Self {
+    pub(super) fn end(radiance: Spectrum) -> Self {
         Self { radiance, next: None }
     }
 }
@@ -57,7 +58,8 @@ pub(super) struct Follow<'a, P: Probe> {
 
 impl<'a, P: Probe> Follow<'a, P> {
     pub(super) fn new(course: &'a Course, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
-        Self { course, walk: Walk::new(&course.rules, cx, probe) }
+        let heeds_media = course.heeds_media && !cx.scene.volumes.is_empty();
+        Self { course, walk: Walk { heeds_media, ..Walk::new(&course.rules, cx, probe) } }
     }
 
     /// Follows the path of an eye ray, which starts in the bodies that the camera is in.
@@ -119,26 +121,44 @@ impl<'a, P: Probe> Follow<'a, P> {
             return Step::end(Spectrum::BLACK);
         }
         walk.rays += 1;
+        if walk.heeds_media {
+            return self.step_in_media(ray, id);
+        }
         match walk.cx.scene.closest(walk.cx, &ray.ray, walk.probe, id) {
-            Some(hit) => self.shade(ray, &hit, id),
-            None => Step::end(self.escape(ray, id)),
+            Some(hit) => self.shade(ray, &hit, (None, id)),
+            None => Step::end(self.escape(ray, None, id)),
         }
     }
 
-    fn shade(&mut self, ray: &mut PathRay, hit: &Hit, id: P::Id) -> Step {
+    /// What happens where a ray met something, behind what floats on its way.
+    pub(super) fn shade(
+        &mut self,
+        ray: &mut PathRay,
+        hit: &Hit,
+        (flight, id): (Option<&Flight>, P::Id),
+    ) -> Step {
         let walk = &mut self.walk;
         let mut s = Shading::at(walk.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
         walk.probe.surface(id, s.object, hit, &s.surface);
         let crossing = walk.cross(&ray.media, &mut s, hit.t);
-        let arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
+        let mut arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
+        let mut sent = Spectrum::BLACK;
+        if let Some(flight) = flight {
+            arriving *= flight.weight;
+            sent = flight.sent;
+        }
         match crossing.boundary {
             Boundary::Passed => {
                 if P::RECORDS {
                     walk.report_passed(ray, &crossing, arriving, id);
+                    walk.probe.local(id, sent);
                 }
                 let beyond = s.surface.spawn(ray.ray.d, ray.ray.time);
                 *ray = ray.passing((s.surface.p, beyond), arriving, crossing.behind, hit.t);
-                return Step { radiance: Spectrum::BLACK, next: Some(RayKind::Passing) };
+                if walk.heeds_media {
+                    ray.sampler = ray.sampler.fork(SCATTER_BRANCH + 1);
+                }
+                return Step { radiance: sent, next: Some(RayKind::Passing) };
             }
             Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
             Boundary::Own => {}
@@ -146,7 +166,8 @@ impl<'a, P: Probe> Follow<'a, P> {
         if self.course.regularize && ray.is_blurred {
             s.bsdf.regularize();
         }
-        let emission = arriving * (s.emission + self.lamp(ray, &s));
+        let own = arriving * (s.emission + self.lamp(ray, &s));
+        let emission = own + sent;
         let mut arriving = arriving;
         if crossing.disperses && !ray.is_collapsed {
             ray.is_collapsed = true;
@@ -155,7 +176,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         s.bsdf.dim(arriving);
         if P::RECORDS {
             let black = Spectrum::BLACK;
-            let parts = Parts { arrived: arriving, emission, ambient: black, blurred_sky: black };
+            let parts = Parts { arrived: arriving, emission: own, ambient: black, blurred_sky: black };
             self.report_hit(ray, (&s, &crossing), &parts, id);
         }
         self.walk.probe.local(id, emission);
@@ -265,7 +286,7 @@ impl<'a, P: Probe> Follow<'a, P> {
     }
 
     /// The probability with which a path goes on: what it carries, but for what the index of refraction does to radiance.
-    fn kept(&self, child: &PathRay) -> f32 {
+    pub(super) fn kept(&self, child: &PathRay) -> f32 {
         if child.depth <= self.course.roulette_depth {
             return 1.0;
         }

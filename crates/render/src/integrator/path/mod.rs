@@ -5,6 +5,7 @@
 //! and Guibas 1995). Paths that carry little end by chance and the others stand for them (Arvo and Kirk 1990).
 mod direct;
 mod follow;
+mod particle;
 mod report;
 
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
@@ -25,13 +26,39 @@ struct Course {
     roulette_depth: u32,
     /// What spread directions meet is asked for its own light only.
     direct_only: bool,
+    /// What floats in the air and in bodies counts.
+    heeds_media: bool,
 }
 
 impl Course {
+    const OF_PATHS: &[ParamSpec] = &[
+        PATH_DEPTH,
+        LIGHT_SAMPLER,
+        ParamSpec::new(
+            "regularize",
+            ParamType::Bool,
+            ParamDefault::Bool(false),
+            "Blurs nearly sharp reflections of what is seen after a blurred bounce: less noise, a little wrong.",
+        ),
+        ROULETTE_DEPTH,
+    ];
+
+    /// With the parameters of path tracers.
+    fn of_paths(args: &mut Args<'_>) -> Option<Self> {
+        let (regularize, roulette_depth) = (args.bool("regularize"), args.int("roulettedepth") as u32);
+        Some(Self { regularize, roulette_depth, ..Self::from_args(args)? })
+    }
     fn from_args(args: &mut Args<'_>) -> Option<Self> {
         let rules = Rules { max_depth: args.int("maxdepth") as u32, ..Rules::PATH };
         let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
-        Some(Self { rules, light_sampler, regularize: false, roulette_depth: u32::MAX, direct_only: false })
+        Some(Self {
+            rules,
+            light_sampler,
+            regularize: false,
+            roulette_depth: u32::MAX,
+            direct_only: false,
+            heeds_media: false,
+        })
     }
 }
 
@@ -45,23 +72,29 @@ impl Kind for Path {
     type Output = Box<dyn Integrator>;
     const SCHEMA: Schema = Schema {
         name: "path",
-        aliases: &["volpath"],
+        aliases: &[],
         doc: "Path tracing with multiple importance sampling and Russian roulette: all light that surfaces scatter.",
-        params: &[
-            PATH_DEPTH,
-            LIGHT_SAMPLER,
-            ParamSpec::new(
-                "regularize",
-                ParamType::Bool,
-                ParamDefault::Bool(false),
-                "Blurs nearly sharp reflections of what is seen after a blurred bounce: less noise, a little wrong.",
-            ),
-            ROULETTE_DEPTH,
-        ],
+        params: Course::OF_PATHS,
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let (regularize, roulette_depth) = (args.bool("regularize"), args.int("roulettedepth") as u32);
-        Some(Box::new(Self { course: Course { regularize, roulette_depth, ..Course::from_args(args)? } }))
+        Some(Box::new(Self { course: Course::of_paths(args)? }))
+    }
+}
+
+/// The path tracer that heeds media; where there are none it does what [`Path`] does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolPath;
+
+impl Kind for VolPath {
+    type Output = Box<dyn Integrator>;
+    const SCHEMA: Schema = Schema {
+        name: "volpath",
+        aliases: &[],
+        doc: "Path tracing through fog, smoke and milk as well: all light that surfaces and media scatter or send out.",
+        params: Course::OF_PATHS,
+    };
+    fn build(args: &mut Args<'_>) -> Option<Self::Output> {
+        Some(Box::new(Path { course: Course { heeds_media: true, ..Course::of_paths(args)? } }))
     }
 }
 

@@ -4,7 +4,11 @@ use durer_core::{
     sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
-use durer_model::bsdf::Scattered;
+use durer_model::{
+    Fill, Volume,
+    bsdf::Scattered,
+    medium::{End, Flight},
+};
 
 use super::{
     super::{shading::Shading, walk::Parts},
@@ -14,7 +18,9 @@ use super::{
 use crate::{
     PathRay,
     media::Crossing,
-    probe::{Choice, ChosenBy, LightEvent, Limit, Probe, RandomNumbers, RayKind, StopReason},
+    probe::{
+        Choice, ChosenBy, Floating, LightEvent, Limit, Particle, Probe, RandomNumbers, RayKind, StopReason,
+    },
 };
 
 impl<P: Probe> Follow<'_, P> {
@@ -34,7 +40,7 @@ impl<P: Probe> Follow<'_, P> {
     }
 
     /// How the weight of the shadow ray comes about that is announced next.
-    pub(super) fn report_light(&mut self, sampler: &Sampler, asked: &Asked, u: f32) {
+    pub(super) fn report_light(&mut self, sampler: &Sampler, asked: &Asked, (cos, u): (f32, f32)) {
         let extended = asked.sample.pdf.is_some();
         let point = sampler.d2(Dim::Light);
         self.walk.probe.chosen(&Choice {
@@ -42,7 +48,7 @@ impl<P: Probe> Follow<'_, P> {
             chance: asked.chosen.chance,
             light_choice: Some(RandomNumbers::one(Dim::LightChoice, u)),
             f: Some(asked.f),
-            cos: Some(asked.wi.z.abs()),
+            cos: Some(cos),
             pdf: asked.sample.pdf,
             other_pdf: asked.other_pdf,
             mis: extended.then_some(asked.mis),
@@ -62,7 +68,8 @@ impl<P: Probe> Follow<'_, P> {
     ) {
         let Asked { chosen, sample, .. } = asked;
         if P::RECORDS {
-            self.report_light(&parent.sampler.fork(super::super::shading::LIGHT_BRANCH), asked, u);
+            let choosing = parent.sampler.fork(super::super::shading::LIGHT_BRANCH);
+            self.report_light(&choosing, asked, (asked.wi.z.abs(), u));
         }
         let reason = match asked.wi.z * s.wo_local.z > 0.0 {
             true => StopReason::BelowHorizon,
@@ -104,6 +111,38 @@ impl<P: Probe> Follow<'_, P> {
             chance: if spread { 1.0 } else { scattered.chance },
             kept,
             random: spread.then(|| RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
+            ..Choice::sharp()
+        });
+    }
+
+    /// What floats on the way of a ray, and the particle that it met.
+    pub(super) fn report_floating(&mut self, (ray, volume): (&PathRay, &Volume), flight: &Flight, id: P::Id) {
+        let scene = self.walk.cx.scene;
+        let Fill::Volume(number) = ray.media.present(&scene.media, &self.walk.cx.basis).fill else { return };
+        let at = |t| {
+            let p = ray.ray.at(t);
+            let (sigma_a, sigma_s) = volume.coefficients(self.walk.cx.basis, p);
+            Particle { t, p, sigma_a, sigma_s, g: volume.phase().g() }
+        };
+        let particle = match flight.end {
+            End::Scattered(t) => Some(at(t)),
+            End::Through => None,
+        };
+        let Flight { weight, sent, passed, .. } = *flight;
+        self.walk.probe.floating(id, &Floating { volume: number, weight, sent, passed, particle });
+    }
+
+    /// How the ray came about that a particle sends on, which lives with probability `kept` and is announced next.
+    pub(super) fn report_deflected(&mut self, sampler: &Sampler, child: &PathRay, kept: f32) {
+        let u = sampler.d2(Dim::Scatter);
+        self.walk.probe.chosen(&Choice {
+            by: ChosenBy::Phase,
+            lobe: Some("henyey-greenstein"),
+            f: child.density.map(|pdf| child.weight * pdf),
+            cos: Some(1.0),
+            pdf: child.density,
+            kept,
+            random: Some(RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
             ..Choice::sharp()
         });
     }

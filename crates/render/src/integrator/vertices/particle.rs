@@ -122,7 +122,8 @@ impl<P: Probe> Walk<'_, P> {
             self.rays += 1;
             let id = self.announce(&ray, parent);
             parent = id;
-            let Some(hit) = self.cx.scene.closest_in_the_way(self.cx, &ray.ray, self.probe, id) else {
+            let Some(hit) = self.cx.scene.closest_in_the_way(self.cx, &ray.ray, false, (self.probe, id))
+            else {
                 self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
                 return;
             };

@@ -4,6 +4,8 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
+use durer_model::{Fill, Volume};
+
 use super::{super::shading::Shading, Walk};
 use crate::{
     MediumStack,
@@ -14,12 +16,16 @@ use crate::{
 impl<P: Probe> Walk<'_, P> {
     /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
     pub(in super::super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
-        if self.cx.scene.media.is_empty() {
+        let scene = self.cx.scene;
+        let concern = if self.heeds_media { !scene.media.is_empty() } else { scene.media.has_bodies() };
+        if !concern {
             return Crossing::nothing(before);
         }
         let imbalances = &mut self.imbalances;
         let complain = |object, imbalance| match imbalance {
-            Imbalance::LeftUnentered => imbalances.add(object),
+            Imbalance::LeftUnentered if scene.is_body(object) => imbalances.add(object),
+            // What floats on both sides of others is known.
+            Imbalance::LeftUnentered => {}
             Imbalance::TooDeep => imbalances.too_deep += 1,
         };
         self.cx.scene.cross(&self.cx.basis, (s.object, &mut s.surface), (s.wo, s.time, t), before, complain)
@@ -46,6 +52,17 @@ impl<P: Probe> Walk<'_, P> {
     }
 }
 
+impl<'a, P: Probe> Walk<'a, P> {
+    /// What floats where a ray in these bodies is; `None` if that is nothing, or does not concern this integrator.
+    pub(in super::super) fn volume(&self, bodies: &MediumStack) -> Option<&'a Volume> {
+        let scene = self.cx.scene;
+        match bodies.present(&scene.media, &self.cx.basis).fill {
+            Fill::Volume(number) if self.heeds_media => scene.volumes.get(number as usize),
+            Fill::Volume(_) | Fill::Nothing => None,
+        }
+    }
+}
+
 /// Metres from the surface point `from` to the parameter `t` of a ray that left it.
 ///
 /// NUMERICS: rays start rounding errors beyond the surface that they leave. Without that way bodies are thinner than they
@@ -53,4 +70,9 @@ impl<P: Probe> Walk<'_, P> {
 fn way(from: Point3, ray: &Ray, t: f32) -> f32 {
     let length = ray.d.length();
     (ray.o - from).dot(ray.d) / length + t * length
+}
+
+/// The part of a ray of unit direction from the surface point `from` to its parameter `t`, by parameters.
+pub(in super::super) fn span(from: Point3, ray: &Ray, t: f32) -> (f32, f32) {
+    ((from - ray.o).dot(ray.d), t)
 }

@@ -27,6 +27,7 @@ use crate::{
     probe::{Probe, RayKind, StopReason},
 };
 
+pub(super) use medium::span;
 pub(super) use report::Parts;
 pub(super) use rules::Rules;
 pub use rules::{Lights, Shadows};
@@ -41,12 +42,14 @@ pub(super) struct Walk<'a, P: Probe> {
     pub(super) probe: &'a mut P,
     pub(super) rays: u64,
     pub(super) imbalances: Imbalances,
+    /// Whether what floats in places counts: surfaces that are not there are met where media begin and end.
+    pub(super) heeds_media: bool,
 }
 
 impl<'a, P: Probe> Walk<'a, P> {
     /// The walk of one sample.
     pub(super) fn new(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
-        Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default() }
+        Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default(), heeds_media: false }
     }
 
     /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in, or follows a recorded ray.

@@ -6,11 +6,17 @@ use durer_accel::Hit;
 use durer_core::{
     Id,
     math::{Point3, Ray},
+    sampling::Dim,
     spectrum::Spectrum,
 };
 use durer_model::{bsdf::Straight, light::LightSample};
 
-use super::{super::shading::Shading, MOST_PASSED, Walk, lights::LIGHT_BRANCH};
+use super::{
+    super::shading::{MEDIUM_BRANCH, Shading},
+    MOST_PASSED, Walk,
+    lights::LIGHT_BRANCH,
+    span,
+};
 use crate::{
     MediumStack, Object, PathRay,
     media::{Boundary, Crossing},
@@ -25,6 +31,42 @@ pub(in super::super) struct Passage {
     pub(in super::super) blocker: Option<Id<Object>>,
     /// Why nothing arrives, if nothing does.
     pub(in super::super) end: StopReason,
+}
+
+/// What floats on the way to a light.
+struct Floating<'a> {
+    path: &'a PathRay,
+    /// Parts of the way, each with random numbers of its own.
+    ways: u32,
+    /// The density with which each lane would have sent a scattered ray through all of it.
+    drawn: Spectrum,
+}
+
+impl Floating<'_> {
+    /// What is left of light on a part of the way, up to parameter `t` of its ray.
+    fn left<P: Probe>(
+        &mut self,
+        walk: &Walk<'_, P>,
+        bodies: &MediumStack,
+        (from, ray): (Point3, &Ray),
+        t: f32,
+    ) -> Spectrum {
+        self.ways += 1;
+        let Some(volume) = walk.volume(bodies) else { return Spectrum::ONE };
+        let unit = ray.d.length();
+        let seen = Ray { d: ray.d / unit, ..*ray };
+        let sampler = self.path.sampler.fork(MEDIUM_BRANCH + self.ways);
+        let draws = |i| sampler.fork(i).d2(Dim::Medium);
+        let passage = volume.pass(walk.cx.basis, &seen, span(from, &seen, t * unit), &draws);
+        self.drawn *= passage.passed;
+        passage.share
+    }
+    /// What a light's share against scattered rays, reckoned as if nothing were in the way, is to be divided by: these get
+    /// through by chance (balance heuristic).
+    fn other_share(&self) -> f32 {
+        let other = self.path.density.unwrap_or(0.0);
+        (1.0 - other) + other * self.drawn.mean()
+    }
 }
 
 impl<P: Probe> Walk<'_, P> {
@@ -92,7 +134,8 @@ impl<P: Probe> Walk<'_, P> {
 
     /// How surfaces are passed; `None` if all of them block light, or there is none to be passed.
     fn straight(&self) -> Option<Straight> {
-        self.rules.straight.filter(|how| *how != Straight::Clear || self.cx.scene.is_passed)
+        let may_pass = self.heeds_media || self.cx.scene.is_passed;
+        self.rules.straight.filter(|how| *how != Straight::Clear || may_pass)
     }
 
     /// The way to a light that everything blocks; in a body that absorbs, its length counts all the same.
@@ -114,13 +157,22 @@ impl<P: Probe> Walk<'_, P> {
         let (mut from, mut ray) = (path.from, path.ray);
         let mut bodies: MediumStack = path.media;
         let mut share = Spectrum::ONE;
+        let mut floating = Floating { path, ways: 0, drawn: path.lanes };
         for _ in 0..MOST_PASSED {
-            let Some(hit) = cx.scene.closest_in_the_way(cx, &ray, self.probe, shadow) else {
+            let asked = (&mut *self.probe, shadow);
+            let Some(hit) = cx.scene.closest_in_the_way(cx, &ray, self.heeds_media, asked) else {
                 let t = if to.is_some() { 1.0 } else { f32::INFINITY };
                 share *= self.arriving(&bodies, from, &ray, t);
+                if self.heeds_media {
+                    share *= floating.left(self, &bodies, (from, &ray), t);
+                    share = share / floating.other_share();
+                }
                 return Passage { share, blocker: None, end: StopReason::Absorbed };
             };
             share *= self.arriving(&bodies, from, &ray, hit.t);
+            if self.heeds_media {
+                share *= floating.left(self, &bodies, (from, &ray), hit.t);
+            }
             let is_absorbed = share.is_black();
             // Surfaces expect a unit direction.
             let unit = ray.d.length();

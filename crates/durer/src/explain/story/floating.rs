@@ -1,0 +1,44 @@
+//! Sentences about what floats on the way of a ray.
+use crate::probe::{Floating, Particle, TreeNode};
+
+use super::{super::words::number, Teller};
+
+impl Teller<'_> {
+    /// That a ray met a particle, as it is told of surfaces.
+    pub(super) fn met_particle(&self, ray: &str, floating: &Floating, particle: &Particle) -> String {
+        let length = number(f64::from(particle.t));
+        format!(
+            "{ray} meets a particle of \"{}\" after {length} m, where {} is scattered per metre and {} absorbed.",
+            self.medium(floating),
+            self.lanes(particle.sigma_s),
+            self.lanes(particle.sigma_a)
+        )
+    }
+
+    /// What is left of light on the way, and what the medium sends out.
+    pub(super) fn floated(&self, node: &TreeNode) -> Vec<String> {
+        let Some(floating) = &node.floating else { return Vec::new() };
+        let name = self.medium(floating);
+        let mut sentences = Vec::new();
+        sentences.push(match floating.particle {
+            Some(particle) => format!(
+                "It scatters light by the phase function of Henyey and Greenstein with g = {}; what comes counts times {}, which is the share that is left and scattered divided by the density of the place.",
+                number(f64::from(particle.g)),
+                self.lanes(floating.weight)
+            ),
+            None => format!(
+                "On its way through \"{name}\" the ray got by with probability {}; what comes counts times {}, the share that is left divided by that.",
+                number(f64::from(floating.passed)),
+                self.lanes(floating.weight)
+            ),
+        });
+        if !floating.sent.is_black() {
+            sentences.push(format!("\"{name}\" itself sends {}.", self.lanes(floating.sent)));
+        }
+        sentences
+    }
+
+    fn medium(&self, floating: &Floating) -> String {
+        self.prepared.scene.volume_names.get(floating.volume as usize).cloned().unwrap_or_default()
+    }
+}

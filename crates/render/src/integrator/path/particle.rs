@@ -1,0 +1,141 @@
+//! What floats on the way of a path: how far its rays get in a medium, and what particles do with light.
+//!
+//! `L = light sent out on the way + weight * (light of one lamp, scattered + L(next ray))`: the direction of the next ray is
+//! drawn from the phase function, so that it keeps its weight. Paths that lanes would draw differently count by the mean of
+//! these densities, see [`durer_model::medium::Flight`].
+use durer_core::{
+    math::{Point3, Ray},
+    sampling::Dim,
+    spectrum::Spectrum,
+};
+use durer_model::{Volume, light::LightCx, medium::End};
+
+use super::{
+    super::{
+        shading::{LIGHT_BRANCH, MEDIUM_BRANCH},
+        walk::span,
+    },
+    direct::{Asked, share},
+    follow::{Follow, SCATTER_BRANCH, Step},
+};
+use crate::{
+    Lit, PathRay,
+    probe::{Limit, Probe, RayKind, StopReason},
+};
+
+/// A particle that a ray met.
+struct Met<'a> {
+    volume: &'a Volume,
+    p: Point3,
+    /// What its light is multiplied with.
+    weight: Spectrum,
+}
+
+impl<P: Probe> Follow<'_, P> {
+    /// Where a ray gets among what floats.
+    pub(super) fn step_in_media(&mut self, ray: &mut PathRay, id: P::Id) -> Step {
+        let walk = &mut self.walk;
+        let cx = walk.cx;
+        let hit = cx.scene.closest_boundary(cx, &ray.ray, walk.probe, id);
+        let Some(volume) = walk.volume(&ray.media) else {
+            return match hit {
+                Some(hit) => self.shade(ray, &hit, (None, id)),
+                None => Step::end(self.escape(ray, None, id)),
+            };
+        };
+        let way = span(ray.from, &ray.ray, hit.map_or(f32::INFINITY, |hit| hit.t));
+        let sampler = ray.sampler.fork(MEDIUM_BRANCH);
+        let draws = |i| if i == 0 { sampler.d2(Dim::Medium) } else { sampler.fork(i).d2(Dim::Medium) };
+        let flight = volume.fly((cx.basis, ray.lanes), &ray.ray, way, &draws);
+        if P::RECORDS {
+            self.report_floating((ray, volume), &flight, id);
+        }
+        ray.lanes = flight.lanes;
+        ray.density = ray.density.map(|density| density * flight.passed);
+        match (flight.end, hit) {
+            (End::Scattered(t), _) => {
+                let met = Met { volume, p: ray.ray.at(t), weight: flight.weight };
+                self.scattered(ray, (&met, flight.sent), id)
+            }
+            (End::Through, Some(hit)) => self.shade(ray, &hit, (Some(&flight), id)),
+            (End::Through, None) => Step::end(self.escape(ray, Some(&flight), id)),
+        }
+    }
+
+    fn scattered(&mut self, ray: &mut PathRay, (met, sent): (&Met<'_>, Spectrum), id: P::Id) -> Step {
+        self.walk.probe.local(id, sent);
+        if met.weight.is_black() {
+            self.walk.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+            return Step::end(sent);
+        }
+        let lit = Lit { p: met.p, n: None, time: ray.ray.time };
+        let radiance = sent + self.light_at(ray, met, &lit, id);
+        Step { radiance, next: self.scatter_at(ray, met, &lit, id) }
+    }
+
+    /// The light of one lamp that a particle scatters back along the ray.
+    fn light_at(&mut self, ray: &PathRay, met: &Met<'_>, lit: &Lit, id: P::Id) -> Spectrum {
+        if ray.depth >= self.course.rules.max_depth {
+            return Spectrum::BLACK;
+        }
+        let scene = self.walk.cx.scene;
+        let choosing = ray.sampler.fork(LIGHT_BRANCH);
+        let u = || choosing.d1(Dim::LightChoice);
+        let Some(chosen) = scene.choose_light(self.course.light_sampler, lit, u) else {
+            return Spectrum::BLACK;
+        };
+        let cx = LightCx { basis: self.walk.cx.basis, time: lit.time };
+        let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else {
+            return Spectrum::BLACK;
+        };
+        let f = met.volume.phase().density(ray.ray.d.dot(sample.wi));
+        let mis = sample.pdf.map_or(1.0, |pdf| share(pdf * chosen.chance, f));
+        let weight = met.weight * (f * mis / chosen.chance);
+        if weight.is_black() {
+            return Spectrum::BLACK;
+        }
+        if P::RECORDS {
+            let other_pdf = sample.pdf.map(|_| f);
+            let asked = Asked { chosen, sample, wi: sample.wi, f: met.weight * f, other_pdf, mis, weight };
+            self.report_light(&choosing, &asked, (1.0, u()));
+        }
+        let to_light = match sample.point {
+            Some(point) => {
+                Ray { t_max: 1.0f32.next_down(), time: lit.time, ..Ray::new(met.p, point - met.p) }
+            }
+            None => Ray { time: lit.time, ..Ray::new(met.p, sample.wi) },
+        };
+        let child = ray.child((met.p, to_light), weight, LIGHT_BRANCH + chosen.light as u32);
+        let path = PathRay { density: Some(1.0 - mis), ..child };
+        weight * self.walk.send_shadow(&path, chosen.light as u32, (sample.point, sample.weight), id)
+    }
+
+    /// Puts the ray that a particle sends on in the place of the one that met it, if chance lets it.
+    fn scatter_at(&mut self, parent: &mut PathRay, met: &Met<'_>, lit: &Lit, id: P::Id) -> Option<RayKind> {
+        let sampler = parent.sampler.fork(SCATTER_BRANCH);
+        let phase = met.volume.phase();
+        let d = phase.deflected(parent.ray.d, sampler.d2(Dim::Scatter));
+        let ray = Ray { time: lit.time, ..Ray::new(met.p, d) };
+        let mut child = PathRay {
+            density: Some(phase.density(parent.ray.d.dot(d))),
+            lit: *lit,
+            is_blurred: true,
+            ..parent.child((met.p, ray), met.weight, SCATTER_BRANCH)
+        };
+        let kept = self.kept(&child);
+        let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+        if P::RECORDS {
+            self.report_deflected(&sampler, &child, if u < kept { kept } else { 1.0 });
+        }
+        if u >= kept {
+            if P::ACTIVE {
+                self.report_roulette((&child, RayKind::Scattered), Limit { value: u, threshold: kept }, id);
+            }
+            return None;
+        }
+        child.weight = child.weight / kept;
+        child.throughput = parent.throughput * child.weight;
+        *parent = child;
+        Some(RayKind::Scattered)
+    }
+}

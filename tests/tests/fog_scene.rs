@@ -1,0 +1,41 @@
+//! The lanterns of the built-in hall in haze fade as Beer and Lambert say.
+#![allow(clippy::expect_used, reason = "a scene that lacks what a test looks for is a failed test")]
+use std::collections::BTreeMap;
+
+use durer::{Options, builtin};
+use durer_tests::prepared;
+
+#[test]
+fn each_lantern_is_left_by_its_distance() {
+    // Without bounces no light is scattered into the way: what is seen is what is left.
+    let options = Options { width: Some(960), samples: Some(4096), max_depth: Some(0), ..Options::default() };
+    let hall = prepared(builtin::find("fog").expect("built in").import(), &options);
+    let job = hall.job();
+    let (mut pixels, mut distances) = (BTreeMap::new(), BTreeMap::new());
+    for i in 0..(120 * 68) {
+        let pixel = [(i % 120) * 8 + 4, (i / 120) * 8 + 2];
+        for sample in 0..4 {
+            let eye = job.record(pixel, sample).0.nodes[0].clone();
+            let Some(hit) = eye.hit else { continue };
+            let name = &hall.scene.object(hit.object).name;
+            if name.starts_with("lantern") && hit.cos > 0.8 {
+                pixels.insert(name.clone(), pixel);
+                distances.insert(name.clone(), f64::from(hit.hit.t));
+            }
+        }
+    }
+    assert!(pixels.len() >= 3, "{pixels:?}");
+    let mut before = 0.0;
+    for (name, pixel) in pixels {
+        let distance = distances[&name];
+        let sum: f64 = (0..4096).map(|sample| f64::from(job.value(pixel, sample)[0])).sum();
+        let expected = 22.0 * (-0.054 * distance).exp();
+        let found = sum / 4096.0;
+        assert!(
+            (found / expected - 1.0).abs() < 0.03,
+            "{name} at {distance} m: {found}, expected {expected}"
+        );
+        assert!(distance > before, "the first one is the nearest");
+        before = distance;
+    }
+}

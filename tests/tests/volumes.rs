@@ -1,0 +1,156 @@
+//! Light in fog, smoke and milk against closed forms.
+use std::f64::consts::PI;
+
+use durer::{Options, Prepared};
+use durer_tests::{render, scene};
+
+/// A picture of one spot, taken from the origin towards `to`.
+fn picture(to: &str, integrator: &str, world: &str, samples: u32) -> Prepared {
+    let text = format!(
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nPixelFilter \"box\"\n\
+         LookAt 0 0 0  {to}  0 1 0\nCamera \"perspective\" \"float fov\" 0.0001\n\
+         Integrator \"volpath\" {integrator}\nWorldBegin\n{world}"
+    );
+    scene(&text, &Options { samples: Some(samples), ..Options::default() })
+}
+
+fn colour(scene: &Prepared) -> [f64; 3] {
+    let rendered = render(scene);
+    assert!(rendered.imbalances.is_empty(), "{:?}", rendered.imbalances);
+    rendered.film.pixels()[0].mean().map(f64::from)
+}
+
+fn seen(to: &str, integrator: &str, world: &str, samples: u32) -> f64 {
+    colour(&picture(to, integrator, world, samples))[1]
+}
+
+const AHEAD: &str = "0 0 1";
+const SKY: &str = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
+const ALL: &str = "\"integer maxdepth\" 10000 \"integer roulettedepth\" 10000";
+
+/// A medium called fog.
+fn fog(params: &str) -> String {
+    format!("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" {params}\n")
+}
+
+/// A slab of what is called fog between two depths, without surfaces.
+fn slab(near: f64, far: f64) -> String {
+    format!(
+        "AttributeBegin Material \"interface\" MediumInterface \"fog\" \"\"\n\
+         Shape \"plane\" \"point3 point\" [0 0 {near}] \"vector3 normal\" [0 0 -1]\n\
+         Shape \"plane\" \"point3 point\" [0 0 {far}] \"vector3 normal\" [0 0 1] AttributeEnd\n"
+    )
+}
+
+/// A ball of what is called fog, five metres ahead.
+fn ball(material: &str) -> String {
+    format!(
+        "AttributeBegin {material} MediumInterface \"fog\" \"\" Translate 0 0 5 Shape \"sphere\" AttributeEnd\n"
+    )
+}
+
+fn near(found: f64, expected: f64, within: f64, what: &str) {
+    assert!((found - expected).abs() <= within * expected.abs(), "{what}: {found}, expected {expected}");
+}
+
+#[test]
+fn what_only_absorbs_leaves_an_exponential_share_without_noise_e18() {
+    let grey = fog("\"rgb sigma_a\" [0.5 0.25 1] \"rgb sigma_s\" [0 0 0]");
+    let found = colour(&picture(AHEAD, "", &(SKY.to_owned() + &grey + &slab(2.0, 3.0)), 1));
+    for (found, expected) in found.into_iter().zip([0.606_531, (-0.25f64).exp(), (-1.0f64).exp()]) {
+        near(found, expected, 2e-6, "slab");
+    }
+    // I20: a ball of chord 2 sqrt(1 - b²), hit at b = 0.6.
+    let found = seen("0 0.6 5", "", &(SKY.to_owned() + &grey + &ball("Material \"interface\"")), 1);
+    let sine = 0.6 * 5.0 / (25.36f64).sqrt();
+    near(found, (-0.25 * 2.0 * (1.0 - sine * sine).sqrt()).exp(), 1e-5, "ball");
+}
+
+#[test]
+fn a_slab_scatters_once_as_the_closed_form_says_e18() {
+    let sun = |z: i32| format!("LightSource \"distant\" \"point3 from\" [0 0 {z}] \"point3 to\" [0 0 0]\n");
+    let mist = fog("\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [1 1 1]");
+    // Seen at cos 0.5, lit along the normal, from the same side and from the other.
+    for (z, expected) in [(-1, 0.050_410), (1, 0.037_011)] {
+        let world = mist.clone() + &sun(z) + &slab(2.0, 3.0);
+        let found = seen("1.7320508 0 1", "\"integer maxdepth\" 1", &world, 4096);
+        near(found, expected, 6e-3, "single scattering");
+    }
+}
+
+#[test]
+fn lanes_that_scatter_differently_are_each_right_e18() {
+    let sun = "LightSource \"distant\" \"point3 from\" [0 0 -1] \"point3 to\" [0 0 0]\n";
+    let sigma = [0.1f64, 1.0, 8.0];
+    let mist = fog("\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [0.1 1 8]");
+    let world = mist + sun + &slab(2.0, 3.0);
+    let found = colour(&picture("1.7320508 0 1", "\"integer maxdepth\" 1", &world, 16_384));
+    for (found, tau) in found.into_iter().zip(sigma) {
+        let mu = 0.5;
+        let expected = (1.0 - (-tau * (1.0 + 1.0 / mu)).exp()) / (4.0 * PI * (1.0 + mu));
+        near(found, expected, 1e-2, "chromatic");
+    }
+}
+
+#[test]
+fn where_nothing_is_lost_scattering_disappears_in_a_uniform_sky() {
+    for (sigma, g) in [(0.3, 0.0), (3.0, 0.0), (3.0, 0.8), (20.0, -0.5)] {
+        let milk = fog(&format!(
+            "\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [{sigma} {sigma} {sigma}] \"float g\" {g}"
+        ));
+        for material in ["Material \"interface\"", "Material \"dielectric\" \"float eta\" 1"] {
+            let found = seen("0 0.3 5", ALL, &(SKY.to_owned() + &milk + &ball(material)), 64);
+            near(found, 1.0, 1e-4, &format!("sigma {sigma}, g {g}, {material}"));
+        }
+    }
+    // Each lane by itself is right in the mean only.
+    let milk = fog("\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [0.2 1 5]");
+    let world = SKY.to_owned() + &milk + &ball("Material \"interface\"");
+    let found = colour(&picture("0 0.3 5", ALL, &world, 65_536));
+    found.into_iter().for_each(|found| near(found, 1.0, 2e-2, "chromatic"));
+}
+
+#[test]
+fn what_glows_sends_what_it_keeps() {
+    // Kirchhoff: where stuff absorbs 1 - exp(-tau), it sends that share of Le.
+    let ember =
+        fog("\"rgb sigma_a\" [0.7 0.7 0.7] \"rgb sigma_s\" [0 0 0] \"rgb Le\" [2 2 2] \"float Lescale\" 1.5");
+    let dark = "LightSource \"infinite\" \"rgb L\" [0 0 0]\n";
+    let found = seen(AHEAD, "", &(dark.to_owned() + &ember + &slab(2.0, 4.0)), 1);
+    near(found, 3.0 * (1.0 - (-1.4f64).exp()), 1e-5, "slab");
+    // In a sky as bright nothing is seen of it, also where it scatters.
+    let ember = fog("\"rgb sigma_a\" [0.7 0.7 0.7] \"rgb sigma_s\" [1.5 1.5 1.5] \"rgb Le\" [1 1 1]");
+    let world = SKY.to_owned() + &ember + &ball("Material \"interface\"");
+    near(seen("0 0.3 5", ALL, &world, 65_536), 1.0, 5e-3, "thermal equilibrium");
+}
+
+#[test]
+fn lamps_in_fog_and_cameras_in_fog_are_seen_through_it() {
+    let mist = fog("\"rgb sigma_a\" [0.2 0.2 0.2] \"rgb sigma_s\" [0 0 0]");
+    let lamp = "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Translate 0 0 4 Shape \"sphere\" AttributeEnd\n";
+    // Everything lies in fog, as the file says of the camera.
+    let said = format!(
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nPixelFilter \"box\"\n{mist}\
+         MediumInterface \"\" \"fog\"\nLookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 0.0001\n\
+         Integrator \"volpath\"\nWorldBegin\n{lamp}"
+    );
+    let options = Options { samples: Some(1), ..Options::default() };
+    near(colour(&scene(&said, &options))[1], 5.0 * (-0.6f64).exp(), 1e-5, "said");
+    // Nobody says so, but the camera is in a ball of it, which ends behind the lamp.
+    let around = mist.clone()
+        + lamp
+        + "Material \"interface\" MediumInterface \"fog\" \"\" Shape \"sphere\" \"float radius\" 20\n";
+    near(seen(AHEAD, "", &around, 1), 5.0 * (-0.6f64).exp(), 1e-5, "found out");
+}
+
+#[test]
+fn the_path_integrator_ignores_media() {
+    let text = format!(
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\nCamera \"perspective\"\n\
+         Integrator \"path\"\nWorldBegin\n{SKY}{}{}",
+        fog(""),
+        slab(2.0, 3.0)
+    );
+    let found = colour(&scene(&text, &Options { samples: Some(4), ..Options::default() }));
+    assert_eq!(found, [1.0; 3]);
+}
