@@ -8,8 +8,7 @@ use durer_tests::prepared;
 #[test]
 fn each_lantern_is_left_by_its_distance() {
     // Without bounces no light is scattered into the way: what is seen is what is left.
-    let options =
-        Options { width: Some(960), samples: Some(4096), max_depth: Some(0), ..Options::default() };
+    let options = Options { width: Some(960), samples: Some(4096), max_depth: Some(0), ..Options::default() };
     let hall = prepared(builtin::find("fog").expect("built in").import(), &options);
     let job = hall.job();
     let (mut pixels, mut distances) = (BTreeMap::new(), BTreeMap::new());
@@ -32,7 +31,10 @@ fn each_lantern_is_left_by_its_distance() {
         let sum: f64 = (0..4096).map(|sample| f64::from(job.value(pixel, sample)[0])).sum();
         let expected = 22.0 * (-0.054 * distance).exp();
         let found = sum / 4096.0;
-        assert!((found / expected - 1.0).abs() < 0.03, "{name} at {distance} m: {found}, expected {expected}");
+        assert!(
+            (found / expected - 1.0).abs() < 0.03,
+            "{name} at {distance} m: {found}, expected {expected}"
+        );
         assert!(distance > before, "the first one is the nearest");
         before = distance;
     }
