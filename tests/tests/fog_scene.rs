@@ -12,13 +12,13 @@ fn each_lantern_is_left_by_its_distance() {
     let hall = prepared(builtin::find("fog").expect("built in").import(), &options);
     let job = hall.job();
     let (mut pixels, mut distances) = (BTreeMap::new(), BTreeMap::new());
-    for i in 0..(120 * 68) {
-        let pixel = [(i % 120) * 8 + 4, (i / 120) * 8 + 2];
+    for i in 0..(480 * 100) {
+        let pixel = [480 + i % 480, 60 + (i / 480) * 3];
         for sample in 0..4 {
             let eye = job.record(pixel, sample).0.nodes[0].clone();
             let Some(hit) = eye.hit else { continue };
             let name = &hall.scene.object(hit.object).name;
-            if name.starts_with("lantern") && hit.cos > 0.8 {
+            if name.starts_with("lantern") && hit.cos > 0.85 {
                 pixels.insert(name.clone(), pixel);
                 distances.insert(name.clone(), f64::from(hit.hit.t));
             }

@@ -105,8 +105,8 @@ fn hot_smoke_sends_what_a_black_body_does() {
     let dark = "LightSource \"infinite\" \"rgb L\" [0 0 0]\n";
     // Seen from so near its middle nothing else is seen of it; a half of the temperature is left at the sides.
     let found = colour(&picture("0 0 1", "", &(dark.to_owned() + &smoke("uniformgrid", fire)), 4096));
-    let cold = durer::spectrum::glow(1500.0).rgb.map(f64::from);
-    let hot = durer::spectrum::glow(3000.0).rgb.map(f64::from);
+    let cold = durer::spectrum::LightColor::glow(1500.0).color.rgb.map(f64::from);
+    let hot = durer::spectrum::LightColor::glow(3000.0).color.rgb.map(f64::from);
     for i in 0..3 {
         assert!(found[i] >= cold[i] * 0.99 && found[i] < hot[i], "{found:?}, between {cold:?} and {hot:?}");
     }

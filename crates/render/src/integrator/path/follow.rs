@@ -142,13 +142,12 @@ impl<'a, P: Probe> Follow<'a, P> {
         walk.probe.surface(id, s.object, hit, &s.surface);
         let crossing = walk.cross(&ray.media, &mut s, hit.t);
         let mut arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
-        let mut sent = Spectrum::BLACK;
         if let Some(flight) = flight {
             arriving *= flight.weight;
-            sent = flight.sent;
         }
         match crossing.boundary {
             Boundary::Passed => {
+                let sent = flight.map_or(Spectrum::BLACK, |flight| flight.sent);
                 if P::RECORDS {
                     walk.report_passed(ray, &crossing, arriving, id);
                     walk.probe.local(id, sent);
@@ -167,7 +166,8 @@ impl<'a, P: Probe> Follow<'a, P> {
             s.bsdf.regularize();
         }
         let own = arriving * (s.emission + self.lamp(ray, &s));
-        let emission = own + sent;
+        // PERF: where nothing floats nothing is added (bench render).
+        let emission = flight.map_or(own, |flight| own + flight.sent);
         let mut arriving = arriving;
         if crossing.disperses && !ray.is_collapsed {
             ray.is_collapsed = true;
