@@ -3,7 +3,6 @@
 //! One file per command. stdout is for results (paths, tables, JSON); progress, warnings and errors go to stderr.
 #![forbid(unsafe_code)]
 
-mod brightness;
 mod completions;
 mod cost;
 mod draw;

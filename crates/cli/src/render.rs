@@ -3,14 +3,14 @@ use std::{path::PathBuf, time::Instant};
 
 use anyhow::anyhow;
 use durer::{
-    Gather, Id, MediumStack, Output, Prepared, Rendered,
+    Gather, Id, MediumStack, Output, Prepared, Rendered, doctor,
     film::{Tile, ToneMap},
     image::{PictureFormat, replace_file},
     picture::{Look, Picture},
+    scene::SceneDesc,
 };
 
 use crate::{
-    brightness::better_exposure,
     exit::{Exit, WrongUsage, emit, emit_json, tell},
     interrupt::Interrupt,
     load::load,
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let pixels = rendered.film.pixels();
     let picture = Picture { scene, prepared, pixels, render, interrupted: rendered.cancelled };
     let written = args.write(&picture, &outputs);
-    args.warn_about_brightness(&picture, &outputs);
+    args.explain_darkness(&loaded.imported.desc, &picture, &outputs);
     let seconds = Seconds { load: loaded.load, build: loaded.build, render, write: start.elapsed() };
     let stats = Stats::new(&Facts { scene, prepared, rendered: &rendered, seconds, outputs: &written });
     args.tell_summary(&picture, &stats);
@@ -170,17 +170,16 @@ impl Args {
         }
     }
 
-    fn warn_about_brightness(&self, picture: &Picture<'_>, outputs: &[Destination]) {
+    /// A picture that shows nothing explains itself.
+    fn explain_darkness(&self, desc: &SceneDesc, picture: &Picture<'_>, outputs: &[Destination]) {
         let seen = outputs.iter().any(|output| output.format == PictureFormat::Png);
         let shows_light = picture.prepared.integrator.output() == Output::Radiance;
         if self.talk.quiet || !seen || !shows_light {
             return;
         }
-        if let Some(better) = better_exposure(&picture.pixels, self.exposure) {
-            let much = if better < self.exposure { "bright" } else { "dark" };
-            tell(&format!(
-                "warning: most of the picture is too {much} to see anything: try --exposure {better}"
-            ));
+        for finding in doctor::explain(desc, picture.prepared, &picture.pixels, self.exposure) {
+            let remedy = finding.remedy.map(|remedy| format!("\n  {remedy}")).unwrap_or_default();
+            tell(&format!("warning: {}{remedy}", finding.message));
         }
     }
 

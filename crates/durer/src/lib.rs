@@ -15,6 +15,7 @@
 
 pub mod builtin;
 pub mod cost;
+pub mod doctor;
 mod environment;
 pub mod explain;
 mod options;

@@ -3,6 +3,8 @@
 //! A new shape is one file here and one line in [`SHAPES`].
 
 mod bilinear;
+mod chord;
+mod cylinder;
 mod disk;
 pub(crate) mod flat;
 pub mod loopsubdiv;
@@ -22,6 +24,7 @@ use durer_core::{
 use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
 pub use bilinear::{BilinearMesh, Patch};
+pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use loopsubdiv::LoopSubdiv;
 pub use mesh::mesh_surface;
@@ -115,11 +118,12 @@ impl Geometry {
 }
 
 /// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["curve", "cylinder"];
+pub const NOT_YET: &[&str] = &["curve"];
 
 /// All kinds of shape.
 pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<BilinearMesh>(),
+    Entry::of::<Cylinder>(),
     Entry::of::<Disk>(),
     Entry::of::<LoopSubdiv>(),
     Entry::of::<Plane>(),
