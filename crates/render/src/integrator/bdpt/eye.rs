@@ -136,13 +136,10 @@ impl<P: Probe> EyeWalk<'_, P> {
         };
         let d = vertex.s.frame.to_world(scattered.wi);
         vertex.is_sharp = scattered.pdf.is_none();
-        *flight = scattered.pdf.map_or(Flight::Sharp, Flight::Direction);
+        let [pdf, back] = vertex.there_and_back(scattered.pdf, d);
+        *flight = Flight::Direction(pdf);
         if let Some(before) = self.vertices.last_mut() {
-            let p = vertex.s.surface.p;
-            before.other = match vertex.is_sharp {
-                true => 1.0,
-                false => before.by_area(vertex.pdf(d, vertex.s.wo), p),
-            };
+            before.other = before.by_area(back, vertex.s.surface.p);
         }
         let mut child = scattered_on(&ray, (&vertex.s, &vertex.crossing), &scattered, scattered.weight);
         let kind = match scattered.pdf {

@@ -1,9 +1,9 @@
 //! Points that a walk through the scene scatters at, from the eye or from a light: what light tracing and bidirectional
 //! path tracing share.
 //!
-//! Densities of vertices are by area, `p(x') = p(w) |n' w| / d²` (Veach 1997, section 8.2.2.2). Of a sharp direction the
-//! density of what it leads to counts as 1: it is the same for every way to sample a path, as only a walk takes it. So do
-//! the chances of passing surfaces that are not there. Particles are scattered by the adjoint of what eye rays are:
+//! Densities of vertices are by area, `p(x') = p(w) |n' w| / d²` (Veach 1997, section 8.2.2.2). The density of a sharp direction
+//! per projected solid angle is the same infinite one in both senses, so that it falls out of all shares: it counts as 1,
+//! or as the cosine per solid angle. The chances of passing surfaces that are not there count as 1 too. Particles are scattered by the adjoint of what eye rays are:
 //! `f*(wo, wi) = f(wi, wo)`, which is not symmetric through interfaces, `|wo n_s| / |wo n_g|` for shading normals (section
 //! 5.3.2).
 mod end;
@@ -46,8 +46,6 @@ pub(super) enum Flight {
     Place(f32),
     /// The camera.
     Camera,
-    /// There was but this one.
-    Sharp,
 }
 
 /// A surface at which a walk scatters.
@@ -77,6 +75,14 @@ impl Vertex {
         let d = self.s.surface.p - from;
         let squared = d.length_squared();
         pdf * self.s.surface.n_g.dot(d).abs() / (squared * squared.sqrt())
+    }
+    /// Densities of a direction that the walk goes on in, 1/sr, and of the way back from there: of sharp ones, which have no
+    /// `pdf`, the cosines.
+    pub(super) fn there_and_back(&self, pdf: Option<f32>, d: Vector3) -> [f32; 2] {
+        match pdf {
+            Some(pdf) => [pdf, self.pdf(d, self.s.wo)],
+            None => [d, self.s.wo].map(|w| self.s.surface.n_g.dot(w).abs()),
+        }
     }
     /// Where lights are wanted that shine here, as one sees it who looks from direction `wo`.
     pub(super) fn lit(&self, wo: Vector3) -> Lit {
@@ -159,7 +165,6 @@ impl<P: Probe> Walk<'_, P> {
             Flight::Direction(pdf) => pdf * cos / d.length_squared(),
             Flight::Place(pdf) => pdf * cos,
             Flight::Camera => self.cx.scene.view.importance(-s.wo, d.length(), s.time) * cos,
-            Flight::Sharp => 1.0,
         }
     }
 

@@ -156,8 +156,8 @@ impl<P: Probe> Walk<'_, P> {
                 let weight = adjoint(&vertex.s, &scattered);
                 let d = vertex.s.frame.to_world(scattered.wi);
                 vertex.is_sharp = scattered.pdf.is_none();
-                flight = scattered.pdf.map_or(Flight::Sharp, Flight::Direction);
-                let back = if vertex.is_sharp { None } else { Some(vertex.pdf(d, vertex.s.wo)) };
+                let [pdf, back] = vertex.there_and_back(scattered.pdf, d);
+                flight = Flight::Direction(pdf);
                 particle.came_back(&vertex, back);
                 (!weight.is_black() && weight.is_finite())
                     .then(|| scattered_on(&ray, (&vertex.s, &vertex.crossing), &scattered, left * weight))
@@ -229,12 +229,12 @@ impl<P: Probe> Walk<'_, P> {
 }
 
 impl Particle {
-    /// Notes with which density a walk comes from a vertex to what is before it; `None` where it was sharp.
-    fn came_back(&mut self, from: &Vertex, pdf: Option<f32>) {
+    /// Notes with which density a walk comes from a vertex to what is before it, by that of the direction.
+    fn came_back(&mut self, from: &Vertex, pdf: f32) {
         let p = from.s.surface.p;
         match self.vertices.last_mut() {
-            Some(before) => before.other = pdf.map_or(1.0, |pdf| before.by_area(pdf, p)),
-            None => self.other = pdf.map_or(1.0, |pdf| self.end.by_area(pdf, p)),
+            Some(before) => before.other = before.by_area(pdf, p),
+            None => self.other = self.end.by_area(pdf, p),
         }
     }
 }
