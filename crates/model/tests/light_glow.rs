@@ -86,6 +86,7 @@ fn seen(light: &Area, geometry: &Geometry, o: Point3, d: Vector3) -> Option<f32>
             let notes = if v > u { [u, v - u] } else { [u - v, v] };
             mesh_surface(mesh, prim, notes, 0.0)
         }
+        Geometry::Strands(_) => return None,
     };
     Some(light.emitted(Basis::Rgb, &surface, -d).mean())
 }

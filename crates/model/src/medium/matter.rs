@@ -1,5 +1,5 @@
 //! How much a stuff absorbs and scatters, as files give it.
-use durer_core::spectrum::{Basis, Color, Spectrum};
+use durer_core::spectrum::Color;
 use durer_scene::{Args, ParamDefault, ParamSpec, ParamType};
 
 use super::preset::Preset;
@@ -61,11 +61,4 @@ impl Matter {
     pub(super) fn scatters(&self) -> bool {
         self.sigma_s != Color::BLACK
     }
-}
-
-/// The lanes of a coefficient, which may be larger than any share of light: as a share of twice its largest component, so
-/// that its spectrum is smooth (as pbrt-v4 has it).
-pub(super) fn lanes(basis: Basis, coefficient: Color) -> Spectrum {
-    let most = 2.0 * coefficient.rgb.into_iter().fold(0.0, f32::max);
-    if most > 0.0 { basis.reflectance(coefficient * (1.0 / most)) * most } else { Spectrum::BLACK }
 }

@@ -12,7 +12,7 @@ use super::{
     glow::Glow,
     grid::{Grid, between},
     majorant::{Majorants, Steps},
-    matter::{Matter, lanes},
+    matter::Matter,
     rgbgrid::Colored,
 };
 
@@ -129,7 +129,7 @@ impl Volume {
             false => self.cube_from_render.point(p).to_array(),
         };
         let of = |matter: &Matter, density: f32| {
-            let (sigma_a, sigma_s) = (lanes(basis, matter.sigma_a), lanes(basis, matter.sigma_s));
+            let (sigma_a, sigma_s) = (basis.unbounded(matter.sigma_a), basis.unbounded(matter.sigma_s));
             (sigma_a * density, sigma_s * density)
         };
         let (sigma_a, sigma_s) = match &self.field {
@@ -159,7 +159,9 @@ impl Volume {
             Field::Even(matter)
             | Field::Dense(matter, _)
             | Field::Sparse(matter, _)
-            | Field::Wisps(matter, _) => (lanes(basis, matter.sigma_a) + lanes(basis, matter.sigma_s)).max(),
+            | Field::Wisps(matter, _) => {
+                (basis.unbounded(matter.sigma_a) + basis.unbounded(matter.sigma_s)).max()
+            }
             Field::Colored(_) => 1.0,
         }
     }
