@@ -287,7 +287,9 @@ fn an_animation_is_chosen_by_name_or_index() {
         let moment = Moment { time: 2.0, shutter: Interval::point(2.0) };
         import_as(d.clone(), &bytes, Reading { play, moment, ..Reading::default() })
     };
-    for play in [Play::First, Play::Named("Walking".into()), Play::Named("0".into()), Play::Named("all".into())] {
+    for play in
+        [Play::First, Play::Named("Walking".into()), Play::Named("0".into()), Play::Named("all".into())]
+    {
         assert_eq!(place(&read(play).desc).x, 6.0);
     }
     assert_eq!(place(&read(Play::Rest).desc).x, 0.0);

@@ -51,8 +51,7 @@ pub(super) fn stances<'c>(
         while let Some(stance) = rest.next() {
             let strays = match (middles.next().flatten(), rest.peek()) {
                 (Some([middle, quarter]), Some(next)) if left > 0 => {
-                    let exceeds =
-                        |at: &Stance, u| at.strays((&stance, next), u).exceeds(&way, MOST_STRAY);
+                    let exceeds = |at: &Stance, u| at.strays((&stance, next), u).exceeds(&way, MOST_STRAY);
                     (exceeds(&middle, 0.5) || exceeds(&quarter, 0.25)).then_some(middle)
                 }
                 _ => None,
