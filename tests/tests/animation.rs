@@ -37,7 +37,8 @@ fn rms(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn slices_of_a_skinned_and_of_a_morphed_mesh_add_up_to_the_blurred_picture_f8() {
     let Some(shared) = shared("slices of animated meshes") else { return };
-    for (name, start, length) in [("CesiumMan.glb", 0.5, 0.3), ("AnimatedMorphCube.glb", 1.0, 1.0)] {
+    // Without textures, whose filters depend on the number of samples.
+    for (name, start, length) in [("RiggedSimple.glb", 0.5, 0.8), ("AnimatedMorphCube.glb", 1.0, 1.0)] {
         const SLICES: u32 = 32;
         let file = shared.join("assets/gltf").join(name);
         let of = |time: f32, shutter: Interval, samples: u32, seed: u64| {
@@ -60,8 +61,8 @@ fn slices_of_a_skinned_and_of_a_morphed_mesh_add_up_to_the_blurred_picture_f8() 
         let blurred = of(start, Interval::new(0.0, length), 128, 99);
         let (off, other) =
             (rms(&blurred, &sliced(start, length)), rms(&blurred, &sliced(start, length * 0.2)));
-        assert!(off < 0.015, "{name}: {off}");
-        assert!(other > 3.0 * off, "{name}: {other} of another motion, {off}");
+        assert!(off < 0.008, "{name}: {off}");
+        assert!(other > 5.0 * off, "{name}: {other} of another motion, {off}");
     }
 }
 
