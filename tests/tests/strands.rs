@@ -23,19 +23,33 @@ fn row(prepared: &Prepared, y: f64) -> [f64; 2] {
 fn curves_are_where_their_bases_say_and_as_wide() {
     // A parabola x = y² from y = -0.8 to 0.8: as Bezier and B-spline of both degrees, by hand.
     let a = 0.8f64;
-    let cubic = format!("[ {} {} 0  {} {} 0  {} {} 0  {} {} 0 ]", a * a, -a, -a * a / 3.0, -a / 3.0, -a * a / 3.0, a / 3.0, a * a, a);
+    let cubic = format!(
+        "[ {} {} 0  {} {} 0  {} {} 0  {} {} 0 ]",
+        a * a,
+        -a,
+        -a * a / 3.0,
+        -a / 3.0,
+        -a * a / 3.0,
+        a / 3.0,
+        a * a,
+        a
+    );
     let quadratic = format!("[ {} {} 0  {} 0 0  {} {} 0 ]", a * a, -a, -a * a, a * a, a);
     // The quadratic spline's knots are the middles of its control points: polar forms of y² at (t, t + 1).
-    let spline: Vec<String> = (-2..=2).map(|k| {
-        let (s, t) = (f64::from(k) * 0.4 - 0.2, f64::from(k) * 0.4 + 0.2);
-        format!("{} {} 0", s * t, (s + t) / 2.0)
-    }).collect();
+    let spline: Vec<String> = (-2..=2)
+        .map(|k| {
+            let (s, t) = (f64::from(k) * 0.4 - 0.2, f64::from(k) * 0.4 + 0.2);
+            format!("{} {} 0", s * t, (s + t) / 2.0)
+        })
+        .collect();
     let quadratic_spline = format!("[ {} ]", spline.join("  "));
-    let polar: Vec<String> = (-3..=3).map(|k| {
-        let knots = [f64::from(k) * 0.4 - 0.4, f64::from(k) * 0.4, f64::from(k) * 0.4 + 0.4];
-        let [r, s, t] = knots;
-        format!("{} {} 0", (r * s + s * t + t * r) / 3.0, s)
-    }).collect();
+    let polar: Vec<String> = (-3..=3)
+        .map(|k| {
+            let knots = [f64::from(k) * 0.4 - 0.4, f64::from(k) * 0.4, f64::from(k) * 0.4 + 0.4];
+            let [r, s, t] = knots;
+            format!("{} {} 0", (r * s + s * t + t * r) / 3.0, s)
+        })
+        .collect();
     let cubic_spline = format!("[ {} ]", polar.join("  "));
     for (points, basis, degree) in [
         (&cubic, "bezier", 3),
@@ -49,7 +63,11 @@ fn curves_are_where_their_bases_say_and_as_wide() {
                 ("bspline", _) => 4,
                 _ => 1,
             };
-            let normals = if form == "ribbon" { format!("\"normal N\" [ {} ]", "0 0 -1 ".repeat(segments + 1)) } else { String::new() };
+            let normals = if form == "ribbon" {
+                format!("\"normal N\" [ {} ]", "0 0 -1 ".repeat(segments + 1))
+            } else {
+                String::new()
+            };
             let shape = format!(
                 "Shape \"curve\" \"point3 P\" {points} \"string basis\" \"{basis}\" \"integer degree\" {degree} \
                  \"string type\" \"{form}\" \"float width\" 0.1 {normals}"
@@ -60,7 +78,10 @@ fn curves_are_where_their_bases_say_and_as_wide() {
                 // Rows cross the strand at an angle: wider by 1 / cos.
                 let expected = 0.1 * (1.0 + 4.0 * y * y).sqrt();
                 assert!((middle - y * y).abs() < 0.02, "{basis} {degree} {form} {y}: {middle}");
-                assert!((width - expected).abs() < 0.031, "{basis} {degree} {form} {y}: {width}, expected {expected}");
+                assert!(
+                    (width - expected).abs() < 0.031,
+                    "{basis} {degree} {form} {y}: {width}, expected {expected}"
+                );
             }
         }
     }
@@ -83,12 +104,15 @@ fn placed_curves_are_the_same_as_moved_and_instanced_ones() {
 
 #[test]
 fn white_hair_vanishes_in_an_even_sky() {
-    let mut world = String::from("LightSource \"infinite\" \"rgb L\" [1 1 1]\nMaterial \"hair\" \"rgb sigma_a\" [0 0 0] \"float beta_m\" 0.4\n");
+    let mut world = String::from(
+        "LightSource \"infinite\" \"rgb L\" [1 1 1]\nMaterial \"hair\" \"rgb sigma_a\" [0 0 0] \"float beta_m\" 0.4\n",
+    );
     for i in 0..40 {
         let (x, z) = (f64::from(i % 8) * 0.12 - 0.42, f64::from(i / 8) * 0.15);
         world += &format!(
             "Shape \"curve\" \"point3 P\" [ {x} -0.9 {z}  {} -0.3 {z}  {} 0.3 {z}  {x} 0.9 {z} ] \"float width\" 0.08\n",
-            x + 0.2, x - 0.2
+            x + 0.2,
+            x - 0.2
         );
     }
     let head = "Translate 0 0 5 Camera \"orthographic\"\nFilm \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 12\n\
@@ -111,11 +135,26 @@ fn wrong_curves_are_refused_with_what_was_expected() {
         imported.diagnostics.iter().map(|d| d.message.clone()).collect::<Vec<_>>().join("; ")
     };
     for (shape, expected) in [
-        ("Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0 ]", "\"P\" has 3 points, expected 4 and then 3 for each further segment"),
-        ("Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0 ] \"string basis\" \"bspline\" \"integer degree\" 2", "\"P\" has 2 points, expected 3 or more"),
-        ("Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ] \"string type\" \"ribbon\"", "\"N\" has 0 normals, expected 2"),
-        ("Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ] \"integer degree\" 4", "\"degree\" is 4"),
-        ("AreaLightSource \"diffuse\" Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ]", "a curve cannot be an area light"),
+        (
+            "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0 ]",
+            "\"P\" has 3 points, expected 4 and then 3 for each further segment",
+        ),
+        (
+            "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0 ] \"string basis\" \"bspline\" \"integer degree\" 2",
+            "\"P\" has 2 points, expected 3 or more",
+        ),
+        (
+            "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ] \"string type\" \"ribbon\"",
+            "\"N\" has 0 normals, expected 2",
+        ),
+        (
+            "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ] \"integer degree\" 4",
+            "\"degree\" is 4",
+        ),
+        (
+            "AreaLightSource \"diffuse\" Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ]",
+            "a curve cannot be an area light",
+        ),
     ] {
         assert!(said(shape).contains(expected), "{}", said(shape));
     }
