@@ -78,8 +78,8 @@ pub const FILES: &[&str] = &[
     "gltf/OrientationTest.glb",
 ];
 
-/// Whitted's integrator, Cook's in both ways to combine samples, ray casting, and the paths, for small pictures.
-pub fn settings() -> [Options; 7] {
+/// Whitted's integrator, Cook's in both ways to combine samples, ray casting, the paths, and particles, for small pictures.
+pub fn settings() -> [Options; 9] {
     let of = |integrator: &str, distribution: Distribution| Options {
         integrator: Some(integrator.to_owned()),
         width: Some(64),
@@ -102,6 +102,8 @@ pub fn settings() -> [Options; 7] {
         Options { show: Some(Show::Shading), max_depth: None, ..of("cast", none) },
         of("path", none),
         of("direct", none),
+        of("light", none),
+        of("bdpt", none),
         Options { max_depth: None, ..of("ambientocclusion", none) },
     ]
 }

@@ -5,7 +5,7 @@
 use durer::{
     Contribution, Options, PathRay, Prepared, SampleCx, Scene,
     explain::{Explanation, Law, check, explain},
-    integrator::{EyeSamples, Integrator, Output},
+    integrator::{EyeSamples, Integrator, Output, Particles},
     math::Vector3,
     model::material::GlossRays,
     probe::{Counters, RayKind, RayTree, Recorder, TreeNode},
@@ -38,6 +38,9 @@ impl Integrator for Wrong {
     }
     fn depth_limit(&self) -> Option<u32> {
         self.inner.depth_limit()
+    }
+    fn particles(&self) -> Particles {
+        self.inner.particles()
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.inner.sample(&self.cx(cx), ray, out);

@@ -3,7 +3,6 @@
 use durer::{
     Options, Prepared, builtin,
     probe::{RayTree, StopReason},
-    spectrum::Basis,
 };
 use durer_tests::{FILES, prepared, settings, shared};
 
@@ -26,18 +25,17 @@ fn check(prepared: &Prepared, pixel: [u32; 2], sample: u32) -> usize {
     let (tree, rgb) = prepared.job().record(pixel, sample);
     let what = format!("pixel {pixel:?}, sample {sample}");
     assert_eq!(bits(prepared.job().value(pixel, sample)), bits(rgb), "{what}: watching changes nothing");
-    assert_eq!(bits(Basis::Rgb.to_rgb(tree.fold())), bits(rgb), "{what}: folded");
-    assert_eq!(bits(Basis::Rgb.to_rgb(tree.nodes[0].result)), bits(rgb), "{what}: the eye ray's result");
+    assert_eq!(bits(tree.basis.to_rgb(tree.fold())), bits(rgb), "{what}: folded");
+    assert_eq!(bits(tree.basis.to_rgb(tree.nodes[0].result)), bits(rgb), "{what}: the eye ray's result");
     let mut sum = [0.0f64; 3];
     for node in &tree.nodes {
-        sum.iter_mut().zip(Basis::Rgb.to_rgb(node.contribution())).for_each(|(sum, c)| *sum += f64::from(c));
+        sum.iter_mut().zip(tree.basis.to_rgb(node.contribution())).for_each(|(sum, c)| *sum += f64::from(c));
     }
     for (sum, v) in sum.iter().zip(rgb.map(f64::from)) {
         assert!((sum - v).abs() <= 1e-5 * v.max(1.0), "{what}: {sum} is not {v}");
     }
-    let killed = Basis::Rgb.to_rgb(tree.killed());
-    let lost: f32 = tree.nodes.iter().map(|n| Basis::Rgb.to_rgb(n.lost)[1]).sum();
-    assert_eq!(killed[1].to_bits(), lost.to_bits());
+    let lost: f32 = tree.nodes.iter().map(|n| n.lost.lanes()[1]).sum();
+    assert_eq!(tree.killed().lanes()[1].to_bits(), lost.to_bits());
     tree.nodes.len()
 }
 
@@ -77,7 +75,7 @@ fn a_thousand_pixels_of_all_scenes_are_their_trees_d1() {
 /// The nodes of the part below `node`, with ids from 0 and no parent above it.
 fn part(tree: &RayTree, node: u32) -> RayTree {
     let mut new = vec![None; tree.nodes.len()];
-    let mut part = RayTree::default();
+    let mut part = RayTree { basis: tree.basis, ..RayTree::default() };
     for (id, old) in (0..).zip(&tree.nodes) {
         let parent = old.parent.and_then(|p| new[p as usize]);
         if id == node || parent.is_some() {
@@ -140,7 +138,7 @@ fn a_full_recorder_gives_up_what_follows_and_says_how_much() {
     let cancelled = some.nodes.iter().filter(|n| n.stop == Some(StopReason::Cancelled));
     let lost: f32 = cancelled.map(|n| n.lost.max()).sum();
     assert!(lost > 0.0 && some.nodes.len() < whole.nodes.len());
-    assert_eq!(bits(Basis::Rgb.to_rgb(some.fold())), bits(rgb), "what is left is a tree all the same");
+    assert_eq!(bits(some.basis.to_rgb(some.fold())), bits(rgb), "what is left is a tree all the same");
     let missing = whole.nodes[0].result.max() - some.nodes[0].result.max();
     assert!(missing <= some.killed().max() * whole.max_radiance() * 1.0001, "{missing}");
 }

@@ -1,13 +1,12 @@
 //! `durer info`: what is in a scene, what it costs, and what is odd about it.
 
 mod camera;
-mod doctor;
 mod facts;
 mod memory;
 mod text;
 mod texture;
 
-use durer::scene::{Location, Missing, Severity};
+use durer::scene::Missing;
 
 use crate::{
     exit::{Exit, emit, emit_json, harmless},
@@ -65,13 +64,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
 /// Puts what the scene doctor finds among the diagnostics; returns his sentences.
 fn examine(loaded: &mut Loaded) -> Vec<String> {
     let Some(prepared) = &loaded.prepared else { return Vec::new() };
-    let found = doctor::findings(&loaded.imported.desc, prepared);
-    let diagnostics = &mut loaded.imported.diagnostics;
-    for (severity, message) in &found {
-        match severity {
-            Severity::Note => diagnostics.note(Location::None, message),
-            Severity::Warning | Severity::Error => diagnostics.warning(Location::None, message),
-        };
-    }
-    found.into_iter().map(|(_, message)| message).collect()
+    let found = durer::doctor::examine(&loaded.imported.desc, prepared);
+    found.iter().for_each(|finding| finding.tell(&mut loaded.imported.diagnostics));
+    found.into_iter().map(|finding| finding.message).collect()
 }

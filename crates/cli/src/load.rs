@@ -6,6 +6,7 @@ use std::{
 
 use durer::{
     FORMATS, Imported, Options, Prepared, builtin,
+    import::Play,
     scene::{Limits, Location, SceneDesc, nearest_word},
 };
 
@@ -31,7 +32,7 @@ pub(crate) struct Loaded {
 
 pub(crate) fn load(scene: &str, wishes: &Options) -> Loaded {
     let start = Instant::now();
-    let mut imported = import(scene);
+    let mut imported = import(scene, wishes);
     let load = start.elapsed();
     let failure = failure(&imported, wishes);
     let start = Instant::now();
@@ -39,23 +40,42 @@ pub(crate) fn load(scene: &str, wishes: &Options) -> Loaded {
     Loaded { imported, prepared, failure, load, build: start.elapsed() }
 }
 
-/// Reads a scene; complains about one that is not there with what may have been meant.
-pub(crate) fn import(scene: &str) -> Imported {
-    absent(scene).unwrap_or_else(|| durer::open(scene))
+/// Reads a scene as it is wanted; complains about one that is not there with what may have been meant.
+pub(crate) fn import(scene: &str, wishes: &Options) -> Imported {
+    absent(scene).unwrap_or_else(|| durer::open_for(scene, wishes))
 }
 
 /// What to tell the shell if a scene that was read cannot be prepared.
 pub(crate) fn failure(imported: &Imported, wishes: &Options) -> Exit {
+    let desc = &imported.desc;
     let sound = !imported.diagnostics.has_errors();
     // The file is as it should be: the option is not.
-    let wrong_option = sound && wishes.camera.as_deref().is_some_and(|c| !has_camera(&imported.desc, c));
-    if wrong_option { Exit::Usage } else { Exit::Failed }
+    let wrong_camera = sound && wishes.camera.as_deref().is_some_and(|c| !has_camera(desc, c));
+    let wrong_animation = match &wishes.play {
+        Play::Named(name) => !has_animation(desc, name),
+        Play::Rest | Play::First => false,
+    };
+    let is_read =
+        sound || !(desc.shapes.is_empty() && desc.animations.is_empty() && desc.variants.is_empty());
+    let wrong_variant = wishes.variant.as_deref().is_some_and(|v| !is_one_of(&desc.variants, v));
+    if wrong_camera || (is_read && (wrong_animation || wrong_variant)) { Exit::Usage } else { Exit::Failed }
 }
 
 /// Whether a camera has this name or index.
 fn has_camera(desc: &SceneDesc, wanted: &str) -> bool {
-    let index = wanted.parse().is_ok_and(|index: usize| index < desc.cameras.len());
-    index || desc.cameras.iter().any(|camera| camera.name == wanted)
+    is_one_of(&desc.cameras.iter().map(|camera| &camera.name).collect::<Vec<_>>(), wanted)
+}
+
+/// Whether an animation has this name or index, or all are wanted.
+fn has_animation(desc: &SceneDesc, wanted: &str) -> bool {
+    let names: Vec<&String> = desc.animations.iter().map(|animation| &animation.name).collect();
+    is_one_of(&names, wanted) || (wanted == "all" && !names.is_empty())
+}
+
+/// Whether something is a name of the list, or an index into it.
+fn is_one_of(names: &[impl AsRef<str>], wanted: &str) -> bool {
+    let is_index = wanted.parse().is_ok_and(|index: usize| index < names.len());
+    is_index || names.iter().any(|name| name.as_ref() == wanted)
 }
 
 /// The complaint about a scene that is a folder or does not exist, with what may have been meant.

@@ -3,12 +3,13 @@
 //! One file per command. stdout is for results (paths, tables, JSON); progress, warnings and errors go to stderr.
 #![forbid(unsafe_code)]
 
-mod brightness;
 mod completions;
+mod convert;
 mod cost;
 mod draw;
 mod exit;
 mod explain;
+mod frames;
 mod info;
 mod interrupt;
 mod load;
@@ -41,6 +42,7 @@ Examples:
   durer explain room.glb --pixel 320,240  the same in words, with the formulas
   durer cost room.glb                     what its picture costs, and where to save
   durer draw room.glb                     its lines, to room.svg
+  durer convert room.glb room.pbrt        the same scene in another format
   durer info room.glb                     what is in the file, and what is odd about it
 
 Exit status:
@@ -66,6 +68,7 @@ enum Command {
     Explain(Box<explain::Args>),
     Cost(Box<cost::Args>),
     Draw(Box<draw::Args>),
+    Convert(Box<convert::Args>),
     Info(info::Args),
     Scenes(scenes::Args),
     Completions(completions::Args),
@@ -88,6 +91,7 @@ fn main() -> ExitCode {
         Command::Explain(args) => explain::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Draw(args) => draw::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Scenes(args) => scenes::run(&args),
         Command::Completions(args) => completions::run(&args),

@@ -1,8 +1,7 @@
 //! Options that several commands share, what they mean to the library, and how to say them again.
 mod distribution;
 mod overlay;
-
-use std::path::PathBuf;
+mod scene;
 
 use clap::{
     Args, ValueEnum,
@@ -11,18 +10,17 @@ use clap::{
 use durer::{
     Options, Shadows, Show,
     accel::{Engine, Preset},
-    compile::{Aperture, Focus, LensOptions},
     drive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects},
     film::Tile,
     integrator::INTEGRATORS,
-    math::Interval,
     sampling::SamplerKind,
-    scene::Missing,
+    spectrum::Carried,
 };
 
 use distribution::DistributionOptions;
+pub(crate) use scene::SceneOptions;
 
-use crate::value::{crop, film_point, finite, fraction, not_negative, positive, shutter, whole};
+use crate::value::{crop, fraction, positive, whole};
 
 /// How hits are found: what a word of `--accel` stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,44 +59,6 @@ const SEARCHES: [Search; 4] = [
     },
 ];
 const DEFAULT_SEARCH: &str = SEARCHES[1].word;
-
-/// Which scene, from which camera, when.
-#[derive(Args, Clone, Debug)]
-#[command(next_help_heading = "Scene")]
-pub(crate) struct SceneOptions {
-    /// A scene file, or the name of a built-in scene (see `durer scenes`).
-    #[arg(default_value = "whitted", help_heading = None)]
-    pub(crate) scene: String,
-    /// Camera, by name or index [default: the first, or one that frames everything].
-    #[arg(long, value_name = "NAME_OR_INDEX", allow_negative_numbers = true)]
-    camera: Option<String>,
-    /// A picture that surrounds the scene and lights it instead of its own sky: EXR, HDR, PFM, PNG, JPEG, BMP
-    /// or TGA, twice as wide as high or, as pbrt-v4 has it, square. Its top is +y, its middle +x.
-    #[arg(long, value_name = "FILE")]
-    env: Option<PathBuf>,
-    /// The moment of the picture [default: 0].
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
-    time_at: Option<f32>,
-    /// Shutter opening and closing, in seconds after --time-at [default: an instant].
-    #[arg(long, value_name = "OPEN,CLOSE", value_parser = shutter, allow_hyphen_values = true)]
-    shutter: Option<Interval>,
-    /// Radius of the lens in metres; 0 has everything in focus [default: the camera's].
-    #[arg(long, value_name = "RADIUS_M", value_parser = not_negative, conflicts_with = "fnumber")]
-    aperture: Option<f32>,
-    /// Width of the lens as focal length by diameter [default: the camera's].
-    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
-    fnumber: Option<f32>,
-    /// Depth of the plane in focus, in metres [default: the camera's].
-    #[arg(long, value_name = "DISTANCE_M", value_parser = positive, conflicts_with = "focus_pixel")]
-    focus: Option<f32>,
-    /// Focus on what is seen there, in pixels from the upper left corner.
-    #[arg(long, value_name = "X,Y", value_parser = film_point)]
-    focus_pixel: Option<[f32; 2]>,
-    /// A missing or damaged texture or mesh is an error, except of OBJ and PLY files, where it is a warning. With this it
-    /// is a warning everywhere, and a visible placeholder is drawn in place of a texture.
-    #[arg(long)]
-    lenient: bool,
-}
 
 /// The words of `--antialias`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -181,6 +141,10 @@ pub(crate) struct TransportOptions {
     /// else opaque].
     #[arg(long, value_name = "HOW", value_parser = shadows())]
     shadows: Option<Shadows>,
+    /// Whether rays carry four wavelengths, other ones for every sample, instead of red, green and blue: measured spectra
+    /// count in full, and glass of a curve splits light [default: the scene's, else off].
+    #[arg(long, value_name = "WHETHER", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    spectral: Option<Switch>,
     /// How hits are found; the picture does not depend on it [default: balanced].
     #[arg(long, value_name = "HOW", default_value = DEFAULT_SEARCH, hide_default_value = true, value_parser = search())]
     accel: Search,
@@ -211,26 +175,11 @@ pub(crate) struct SampleOptions {
     pub(crate) distribution: DistributionOptions,
 }
 
-impl SceneOptions {
-    /// The wishes in the library's terms.
-    pub(crate) fn wishes(&self) -> Options {
-        Options {
-            camera: self.camera.clone(),
-            environment: self.env.clone(),
-            time: self.time_at.unwrap_or(0.0),
-            shutter: self.shutter,
-            lens: self.lens(),
-            missing: if self.lenient { Missing::Warn } else { Missing::Refuse },
-            ..Options::default()
-        }
-    }
-
-    fn lens(&self) -> LensOptions {
-        let radius = self.aperture.map(Aperture::Radius);
-        let distance = self.focus.map(Focus::Distance);
-        LensOptions {
-            aperture: radius.or(self.fnumber.map(Aperture::FNumber)),
-            focus: distance.or(self.focus_pixel.map(Focus::Pixel)),
+impl Switch {
+    fn carried(self) -> Carried {
+        match self {
+            Self::On => Carried::Wavelengths,
+            Self::Off => Carried::Rgb,
         }
     }
 }
@@ -254,7 +203,7 @@ impl SampleOptions {
     /// The wishes in the library's terms.
     pub(crate) fn wishes(&self) -> Options {
         let FilmOptions { width, height, scale, spp, sampler, crop, seed, .. } = self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, spectral, accel } =
             self.transport.clone();
         Options {
             integrator,
@@ -268,6 +217,7 @@ impl SampleOptions {
             max_depth,
             min_contribution,
             shadows,
+            carried: spectral.map(Switch::carried),
             crop,
             engine: accel.engine,
             preset: accel.preset,
@@ -280,18 +230,6 @@ impl SampleOptions {
     /// The words after `durer trace` that replay a sample of a render with these options. Names every field, so that a
     /// new option cannot be forgotten here.
     pub(crate) fn replay(&self, pixel: [u32; 2], sample: u32) -> String {
-        let SceneOptions {
-            scene,
-            camera,
-            env,
-            time_at,
-            shutter,
-            aperture,
-            fnumber,
-            focus,
-            focus_pixel,
-            lenient,
-        } = &self.scene;
         // A crop changes no sample.
         let FilmOptions {
             width,
@@ -306,20 +244,14 @@ impl SampleOptions {
             crop: _,
             seed,
         } = &self.film;
-        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, accel } =
+        let TransportOptions { integrator, show, max_depth, min_contribution, shadows, spectral, accel } =
             &self.transport;
-        let mut words = vec![quoted(scene), format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
+        let scene = quoted(&self.scene.scene);
+        let mut words = vec![scene, format!("--pixel {},{} --sample {sample}", pixel[0], pixel[1])];
         let mut say = |name: &str, value: Option<String>| {
             words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
         };
-        say("camera", camera.clone());
-        say("env", env.as_ref().map(|f| f.display().to_string()));
-        say("time-at", time_at.map(|v| v.to_string()));
-        say("shutter", shutter.map(|s| format!("{},{}", s.min, s.max)));
-        say("aperture", aperture.map(|v| v.to_string()));
-        say("fnumber", fnumber.map(|v| v.to_string()));
-        say("focus", focus.map(|v| v.to_string()));
-        say("focus-pixel", focus_pixel.map(|[x, y]| format!("{x},{y}")));
+        self.scene.words().into_iter().for_each(|(name, value)| say(name, value));
         say("width", width.map(|v| v.to_string()));
         say("height", height.map(|v| v.to_string()));
         say("scale", scale.map(|v| v.to_string()));
@@ -336,9 +268,15 @@ impl SampleOptions {
         say("max-depth", max_depth.map(|v| v.to_string()));
         say("min-contribution", min_contribution.map(|v| v.to_string()));
         say("shadows", shadows.map(|v| v.word().to_owned()));
+        words.extend(
+            spectral.map(|v| if v == Switch::On { "--spectral" } else { "--spectral=off" }.to_owned()),
+        );
+        let mut say = |name: &str, value: Option<String>| {
+            words.extend(value.map(|v| format!("--{name} {}", quoted(&v))));
+        };
         say("accel", Some(accel.word.to_owned()).filter(|word| word != DEFAULT_SEARCH));
         self.distribution.words().into_iter().for_each(|(name, value)| say(name, value));
-        if *lenient {
+        if self.scene.lenient {
             words.push("--lenient".to_owned());
         }
         words.join(" ")

@@ -21,6 +21,13 @@ pub(crate) struct Destination {
     place: PathBuf,
 }
 
+impl Destination {
+    /// A file of the same format in the same folder.
+    pub(crate) fn called(&self, path: PathBuf) -> Self {
+        Self { path, ..self.clone() }
+    }
+}
+
 /// The destinations asked for, or `SCENE-STEM.png` in the current folder.
 pub(crate) fn destinations(asked: &[PathBuf], scene: &str) -> anyhow::Result<Vec<Destination>> {
     let default = [default_path(scene)];
@@ -36,7 +43,7 @@ pub(crate) fn destinations(asked: &[PathBuf], scene: &str) -> anyhow::Result<Vec
     Ok(destinations)
 }
 
-fn default_path(scene: &str) -> PathBuf {
+pub(crate) fn default_path(scene: &str) -> PathBuf {
     let mut name = Path::new(scene).file_stem().unwrap_or("picture".as_ref()).to_owned();
     name.push(".png");
     name.into()

@@ -43,6 +43,15 @@ impl Bar {
         Self { bar, rays }
     }
 
+    /// So many samples there are by now and in what follows.
+    pub(crate) fn expect(&self, following: u64) {
+        self.bar.set_length(self.bar.position().saturating_add(following));
+    }
+    /// Makes room on the terminal while something else is said.
+    pub(crate) fn pause<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.bar.suspend(work)
+    }
+
     /// Wipes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();

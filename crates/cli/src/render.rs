@@ -1,17 +1,18 @@
 //! `durer render`: a scene to picture files.
-use std::{path::PathBuf, time::Instant};
+use std::{path::PathBuf, sync::atomic::AtomicBool, time::Instant};
 
 use anyhow::anyhow;
 use durer::{
-    Gather, Id, MediumStack, Output, Prepared, Rendered,
+    Gather, Id, MediumStack, Output, Prepared, Rendered, doctor,
     film::{Tile, ToneMap},
     image::{PictureFormat, replace_file},
     picture::{Look, Picture},
+    scene::SceneDesc,
 };
 
 use crate::{
-    brightness::better_exposure,
     exit::{Exit, WrongUsage, emit, emit_json, tell},
+    frames::{self, FrameOptions},
     interrupt::Interrupt,
     load::load,
     number::{counted, significant},
@@ -32,6 +33,9 @@ Examples:
   durer render car.glb --env studio.hdr          lit by a picture all around
   durer render room.glb --crop 100,50,200,120 --spp 256
   durer render --stats=json | jq .rays
+  durer render fox.glb --animation Run --time-at 0.4 --shutter 0.02
+  durer render fox.glb --animation Run --frames 0..28 --shutter 0.5f -o fox.####.png
+  durer render fox.glb --frames 0..81 -o fox.mp4  a video, where ffmpeg is installed
 
 Files: .png is developed (exposure, tone map, sRGB) to 8 bits; .exr holds linear
 floats as they are. Its channels: R, G, B; depth.Z (metres along the camera's
@@ -51,10 +55,10 @@ Ctrl-C writes the picture so far and exits with 130; a second one exits at once.
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    sample: SampleOptions,
+    pub(crate) sample: SampleOptions,
     /// The picture file; may be given several times [default: SCENE-STEM.png].
     #[arg(long, short, value_name = "FILE", help_heading = "Picture")]
-    output: Vec<PathBuf>,
+    pub(crate) output: Vec<PathBuf>,
     /// Brightens 8-bit pictures by so many stops.
     #[arg(long, value_name = "EV", value_parser = finite, allow_negative_numbers = true, default_value_t = 0.0)]
     #[arg(help_heading = "Picture")]
@@ -65,16 +69,22 @@ pub(crate) struct Args {
     /// Counts rays, stops and tests, which takes time; as text on stderr, or as JSON on stdout.
     #[arg(long, value_name = "FORM", value_enum, num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "text", help_heading = "Running")]
-    stats: Option<StatsForm>,
+    pub(crate) stats: Option<StatsForm>,
     /// Worker threads [default: all cores]. The picture does not depend on their number.
     #[arg(long, value_name = "N", value_parser = whole(1u32..=4096))]
     #[arg(allow_negative_numbers = true, help_heading = "Running")]
-    threads: Option<u32>,
+    pub(crate) threads: Option<u32>,
     #[command(flatten)]
-    talk: TalkOptions,
+    pub(crate) frames: FrameOptions,
+    #[command(flatten)]
+    pub(crate) talk: TalkOptions,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
+    if let Some(frames) = args.frames.frames {
+        return frames::run(args, frames);
+    }
+    frames::check_single(&args.output)?;
     let scene = &args.sample.scene.scene;
     let outputs = destinations(&args.output, scene)?;
     let interrupt = Interrupt::listen("writing the picture so far")?;
@@ -87,35 +97,63 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     args.check_crop(prepared)?;
     args.warn_about_looks(prepared);
 
+    let bar = Bar::new(prepared.job().steps(), args.talk.quiet);
     let start = Instant::now();
-    let rendered = args.render(prepared, &interrupt);
+    let rendered = args.render(prepared, &bar, interrupt.rendering());
     let render = start.elapsed();
-    args.warn_about_bad_samples(&rendered);
+    bar.finish();
+    args.warn_about_bad_samples(&args.sample, &rendered);
     args.warn_about_imbalances(prepared, &rendered);
+    let seconds = Seconds { load: loaded.load, build: loaded.build, render, ..Seconds::default() };
+    let taken = Taken { desc: &loaded.imported.desc, prepared, rendered: &rendered, seconds };
+    args.finish(&taken, &outputs)
+}
 
-    let start = Instant::now();
-    let pixels = rendered.film.pixels();
-    let picture = Picture { scene, prepared, pixels, render, interrupted: rendered.cancelled };
-    let written = args.write(&picture, &outputs);
-    args.warn_about_brightness(&picture, &outputs);
-    let seconds = Seconds { load: loaded.load, build: loaded.build, render, write: start.elapsed() };
-    let stats = Stats::new(&Facts { scene, prepared, rendered: &rendered, seconds, outputs: &written });
-    args.tell_summary(&picture, &stats);
-    if args.stats == Some(StatsForm::Json) {
-        emit_json(&stats)?;
-    } else {
-        written.iter().try_for_each(|path| emit(&format!("{path}\n")))?;
+/// A picture that was rendered.
+pub(crate) struct Taken<'a> {
+    /// What it is of.
+    pub(crate) desc: &'a SceneDesc,
+    pub(crate) prepared: &'a Prepared,
+    pub(crate) rendered: &'a Rendered,
+    /// But for writing it.
+    pub(crate) seconds: Seconds,
+}
+
+impl Taken<'_> {
+    /// On its way into files.
+    pub(crate) fn picture<'p>(&'p self, scene: &'p str) -> Picture<'p> {
+        let Self { desc: _, prepared, rendered, seconds } = self;
+        let (pixels, render, interrupted) = (rendered.film.pixels(), seconds.render, rendered.cancelled);
+        Picture { scene, prepared, pixels, render, interrupted }
     }
-    Ok(match (rendered.cancelled, written.len() == outputs.len()) {
-        (true, _) => Exit::Interrupted,
-        (false, true) => Exit::Done,
-        (false, false) => Exit::Failed,
-    })
 }
 
 impl Args {
+    /// Writes the files of a picture and says how it went.
+    pub(crate) fn finish(&self, taken: &Taken<'_>, outputs: &[Destination]) -> anyhow::Result<Exit> {
+        let scene = &self.sample.scene.scene;
+        let Taken { desc: _, prepared, rendered, seconds } = taken;
+        let start = Instant::now();
+        let picture = taken.picture(scene);
+        let written = self.write(&picture, outputs);
+        self.explain_darkness(taken.desc, &picture, outputs);
+        let seconds = Seconds { write: start.elapsed(), ..*seconds };
+        let stats = Stats::new(&Facts { scene, prepared, rendered, seconds, outputs: &written });
+        self.tell_summary(&picture, &stats);
+        if self.stats == Some(StatsForm::Json) {
+            emit_json(&stats)?;
+        } else {
+            written.iter().try_for_each(|path| emit(&format!("{path}\n")))?;
+        }
+        Ok(match (rendered.cancelled, written.len() == outputs.len()) {
+            (true, _) => Exit::Interrupted,
+            (false, true) => Exit::Done,
+            (false, false) => Exit::Failed,
+        })
+    }
+
     /// A crop that misses the picture is a slip: it would give a black one. One that reaches beyond may be one.
-    fn check_crop(&self, prepared: &Prepared) -> Result<(), WrongUsage> {
+    pub(crate) fn check_crop(&self, prepared: &Prepared) -> Result<(), WrongUsage> {
         let view = &prepared.scene.view;
         let Some(asked) = prepared.settings.crop else { return Ok(()) };
         let window = prepared.settings.window(view.width, view.height);
@@ -133,26 +171,21 @@ impl Args {
         Ok(())
     }
 
-    fn render(&self, prepared: &Prepared, interrupt: &Interrupt) -> Rendered {
+    pub(crate) fn render(&self, prepared: &Prepared, bar: &Bar, cancel: &AtomicBool) -> Rendered {
         let view = &prepared.scene.view;
         let pixels = prepared.settings.window(view.width, view.height).area();
-        let bar = Bar::new(prepared.job().steps(), self.talk.quiet);
         let gather = if self.stats.is_some() { Gather::Counters } else { Gather::Rays };
-        let cancel = interrupt.rendering();
         if self.talk.verbose {
             let pixels = counted(pixels, "pixel", "pixels");
             let threads = counted(prepared.settings.threads as u64, "thread", "threads");
             tell(&format!("rendering {pixels} on {threads}"));
         }
-        let rendered = prepared.job().render(gather, &bar, cancel);
-        bar.finish();
-        rendered
+        prepared.job().render(gather, bar, cancel)
     }
 
     /// The paths of the files that could be written; complains about the others.
-    fn write(&self, picture: &Picture<'_>, outputs: &[Destination]) -> Vec<String> {
-        let tonemap = self.tonemap.unwrap_or(Look::usual_tonemap(&picture.prepared.integrator_name));
-        let look = Look { exposure: self.exposure, tonemap };
+    pub(crate) fn write(&self, picture: &Picture<'_>, outputs: &[Destination]) -> Vec<String> {
+        let look = self.look(picture.prepared);
         let written = outputs.iter().filter(|output| {
             let done = write(picture, output, look);
             if let Err(error) = &done {
@@ -163,32 +196,37 @@ impl Args {
         written.map(|output| output.path.display().to_string()).collect()
     }
 
-    fn warn_about_looks(&self, prepared: &Prepared) {
+    /// How light becomes 8-bit colours.
+    pub(crate) fn look(&self, prepared: &Prepared) -> Look {
+        let tonemap = self.tonemap.unwrap_or(Look::usual_tonemap(&prepared.integrator_name));
+        Look { exposure: self.exposure, tonemap }
+    }
+
+    pub(crate) fn warn_about_looks(&self, prepared: &Prepared) {
         let asked = self.tonemap.is_some() || self.exposure != 0.0;
         if asked && !self.talk.quiet && prepared.integrator.output() != Output::Radiance {
             tell("warning: the picture shows no light: exposure and tone map change nothing");
         }
     }
 
-    fn warn_about_brightness(&self, picture: &Picture<'_>, outputs: &[Destination]) {
+    /// A picture that shows nothing explains itself.
+    pub(crate) fn explain_darkness(&self, desc: &SceneDesc, picture: &Picture<'_>, outputs: &[Destination]) {
         let seen = outputs.iter().any(|output| output.format == PictureFormat::Png);
         let shows_light = picture.prepared.integrator.output() == Output::Radiance;
         if self.talk.quiet || !seen || !shows_light {
             return;
         }
-        if let Some(better) = better_exposure(&picture.pixels, self.exposure) {
-            let much = if better < self.exposure { "bright" } else { "dark" };
-            tell(&format!(
-                "warning: most of the picture is too {much} to see anything: try --exposure {better}"
-            ));
+        for finding in doctor::explain(desc, picture.prepared, &picture.pixels, self.exposure) {
+            let remedy = finding.remedy.map(|remedy| format!("\n  {remedy}")).unwrap_or_default();
+            tell(&format!("warning: {}{remedy}", finding.message));
         }
     }
 
-    fn warn_about_bad_samples(&self, rendered: &Rendered) {
+    pub(crate) fn warn_about_bad_samples(&self, sample: &SampleOptions, rendered: &Rendered) {
         let Some(first) = rendered.first_bad.filter(|_| !self.talk.quiet) else {
             return;
         };
-        let replay = self.sample.replay(first.pixel, first.sample);
+        let replay = sample.replay(first.pixel, first.sample);
         let counted = match rendered.bad_samples {
             1 => "1 sample was infinite or NaN and was left out; it".to_owned(),
             n => format!("{n} samples were infinite or NaN and were left out; the first"),
@@ -197,7 +235,7 @@ impl Args {
     }
 
     /// Names the objects that rays left without having entered them: the most often left first.
-    fn warn_about_imbalances(&self, prepared: &Prepared, rendered: &Rendered) {
+    pub(crate) fn warn_about_imbalances(&self, prepared: &Prepared, rendered: &Rendered) {
         /// Objects named at most.
         const NAMED: usize = 5;
         /// One in so many rays may be wrong without a word.

@@ -21,7 +21,7 @@ pub(crate) enum StatsForm {
 }
 
 /// Wall time per phase.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Seconds {
     pub(crate) load: Duration,
     pub(crate) build: Duration,

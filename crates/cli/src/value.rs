@@ -47,12 +47,42 @@ pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// When the shutter opens and closes.
-pub(crate) fn shutter(text: &str) -> Result<Interval, String> {
-    let [open, close]: [f32; 2] = numbers(text, "OPEN,CLOSE: two numbers of seconds")?;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Exposure {
+    /// In seconds.
+    Seconds(Interval),
+    /// In parts of the time between two frames.
+    Frames(Interval),
+}
+
+impl Exposure {
+    /// In seconds, if there are so many frames in one.
+    pub(crate) fn seconds(self, fps: f32) -> Interval {
+        match self {
+            Self::Seconds(span) => span,
+            Self::Frames(Interval { min, max }) => Interval::new(min / fps, max / fps),
+        }
+    }
+}
+
+/// When the shutter opens and closes: both, or how long it is open; in seconds, or with an `f` in frames.
+pub(crate) fn shutter(text: &str) -> Result<Exposure, String> {
+    let text = text.trim();
+    let (plain, in_frames) = text.strip_suffix('f').map_or((text, false), |plain| (plain, true));
+    let [open, close]: [f32; 2] = match plain.contains(',') {
+        true => numbers(plain, "OPEN,CLOSE: two numbers of seconds, or of frames with an f behind them")?,
+        false => [
+            0.0,
+            not_negative(plain).map_err(|_| {
+                "expected OPEN,CLOSE or LENGTH, in seconds, or in frames with an f behind".to_owned()
+            })?,
+        ],
+    };
     if !open.is_finite() || !close.is_finite() || open > close {
         return Err("must open before it closes".to_owned());
     }
-    Ok(Interval::new(open, close))
+    let span = Interval::new(open, close);
+    Ok(if in_frames { Exposure::Frames(span) } else { Exposure::Seconds(span) })
 }
 
 /// A number that is neither infinite nor NaN.
@@ -92,6 +122,18 @@ mod tests {
         assert_eq!(numbers::<u32, 2>("3, 4", ""), Ok([3, 4]));
         assert!(numbers::<u32, 2>("3", "").is_err() && numbers::<u32, 2>("3,4,5", "").is_err());
         assert!(crop("4,0,4,9").is_err() && shutter("1,0").is_err() && shutter("nan,1").is_err());
+    }
+
+    #[test]
+    fn shutters_are_open_for_seconds_or_parts_of_a_frame() {
+        let seconds = |text| shutter(text).map(|exposure| exposure.seconds(8.0));
+        assert_eq!(seconds("-0.5,0.25"), Ok(Interval::new(-0.5, 0.25)));
+        assert_eq!(seconds("0.5"), Ok(Interval::new(0.0, 0.5)));
+        assert_eq!(seconds("0.5f"), Ok(Interval::new(0.0, 0.0625)));
+        assert_eq!(seconds("-1,1f"), Ok(Interval::new(-0.125, 0.125)));
+        for wrong in ["f", "-1", "1,2,3", "x", "1,f", ""] {
+            assert!(shutter(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
         page: args.page(),
         describe: describe(scene.clone()),
     };
-    let imported = load::import(scene);
+    let imported = load::import(scene, &options);
     let failure = load::failure(&imported, &options);
     let live = match Live::start(imported, config) {
         Ok(live) => live,

@@ -48,6 +48,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/penumbra.pbrt"),
     },
     Builtin {
+        name: "caustic",
+        doc: "what glass balls and a brass ring do with the light of a small lamp, found by particles",
+        text: include_str!("../scenes/caustic.pbrt"),
+    },
+    Builtin {
         name: "cornell",
         doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
         text: include_str!("../scenes/cornell.pbrt"),
@@ -71,6 +76,16 @@ pub const SCENES: &[Builtin] = &[
         name: "glass-plate",
         doc: "three plates of coloured glass before a white sky: what they leave by all orders of reflection",
         text: include_str!("../scenes/glass-plate.pbrt"),
+    },
+    Builtin {
+        name: "prism",
+        doc: "white light and five lines of a spectrum, seen through a prism of flint glass (in wavelengths)",
+        text: include_str!("../scenes/prism.pbrt"),
+    },
+    Builtin {
+        name: "rainbow",
+        doc: "a curtain of water drops with the sun behind the eye: the primary bow (in wavelengths)",
+        text: include_str!("../scenes/rainbow.pbrt"),
     },
 ];
 

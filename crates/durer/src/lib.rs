@@ -15,14 +15,18 @@
 
 pub mod builtin;
 pub mod cost;
+pub mod doctor;
 mod environment;
 pub mod explain;
+mod glb;
 mod options;
 pub mod picture;
 mod prepare;
+mod sequence;
 mod studio;
 mod transport;
 pub mod tree;
+mod written;
 
 pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
@@ -42,18 +46,43 @@ pub use durer_render::{
 };
 pub use durer_scene as scene;
 
+pub use glb::Glb;
 pub use options::{Distribution, Options};
 pub use prepare::{Prepared, prepare};
+pub use sequence::Sequence;
 pub use studio::{Studio, Wanted};
 pub use transport::with_usual_depth;
+pub use written::ToWrite;
 
 use std::path::Path;
 
+use durer_io::import::Play;
 use durer_scene::{Limits, Location};
 
-/// Reads a scene: a file, or a built-in scene by name. A file of that name in the current folder is not mistaken for
+/// Reads a scene: a file, or a built-in scene by name, at rest. A file of that name in the current folder is not mistaken for
 /// the built-in scene, as files have a suffix.
 pub fn open(scene: &str) -> Imported {
+    open_for(scene, &Options::default())
+}
+
+/// Reads a scene as `options` want it: at their moment of their animation, in their materials. Elsewhere [`prepare`] shows
+/// what options ask for; of a file that holds an animation this must be known when it is read.
+pub fn open_for(scene: &str, options: &Options) -> Imported {
+    let mut imported = read(scene, options);
+    let Imported { desc, diagnostics, .. } = &mut imported;
+    if !diagnostics.has_errors() {
+        if let (Play::Named(name), true) = (&options.play, desc.animations.is_empty()) {
+            diagnostics.error(Location::None, format!("no animation \"{name}\": the scene has none"));
+        }
+        if let (Some(name), true) = (&options.variant, desc.variants.is_empty()) {
+            let message = format!("no variant \"{name}\": the scene has one set of materials");
+            diagnostics.error(Location::None, message);
+        }
+    }
+    imported
+}
+
+fn read(scene: &str, options: &Options) -> Imported {
     let path = Path::new(scene);
     if let Some(builtin) = builtin::find(scene) {
         builtin.import()
@@ -63,6 +92,6 @@ pub fn open(scene: &str) -> Imported {
         imported.diagnostics.unknown(Location::None, "file or built-in scene", scene, names);
         imported
     } else {
-        import::open(path, Limits::default())
+        import::open(path, options.reading())
     }
 }

@@ -2,14 +2,15 @@
 use std::path::PathBuf;
 
 use durer_accel::{Engine, Preset};
-use durer_core::{math::Interval, sampling::SamplerKind};
+use durer_core::{math::Interval, sampling::SamplerKind, spectrum::Carried};
+use durer_io::import::{Moment, Play, Reading};
 use durer_render::{
     compile::LensOptions,
     drive::Antialias,
     film::Tile,
     integrator::{Lights, Sampling, Shadows, Show},
 };
-use durer_scene::Missing;
+use durer_scene::{Limits, Missing};
 
 /// Rays per effect of the integrator `distributed`; see [`durer_render::integrator::Distributed`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +58,8 @@ pub struct Options {
     pub distribution: Distribution,
     /// What transparent things do to shadow rays.
     pub shadows: Option<Shadows>,
+    /// Whether rays carry colours or wavelengths.
+    pub carried: Option<Carried>,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.
@@ -64,6 +67,10 @@ pub struct Options {
     pub environment: Option<PathBuf>,
     /// The part of the picture that is rendered.
     pub crop: Option<Tile>,
+    /// The set of materials that the scene wears, by name or index; the file's own if `None`. See [`crate::open_for`].
+    pub variant: Option<String>,
+    /// Which animation of the file moves the scene. See [`crate::open_for`].
+    pub play: Play,
     /// The moment of the picture, in seconds.
     pub time: f32,
     /// Shutter opening and closing, in seconds after `time`.
@@ -82,4 +89,21 @@ pub struct Options {
     pub missing: Missing,
     /// What becomes of scenes that show nothing.
     pub nothing: Missing,
+}
+
+impl Options {
+    /// How a file is read that these options are for.
+    pub fn reading(&self) -> Reading {
+        Reading {
+            limits: Limits::default(),
+            play: self.play.clone(),
+            moment: self.moment(),
+            variant: self.variant.clone(),
+        }
+    }
+    /// When the scene is looked at, as far as a file must know that holds an animation.
+    pub fn moment(&self) -> Moment {
+        let Interval { min, max } = self.shutter.unwrap_or(Interval::point(0.0));
+        Moment { time: self.time, shutter: Interval::new(self.time + min, self.time + max) }
+    }
 }

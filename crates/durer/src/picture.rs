@@ -3,7 +3,7 @@ use std::{error::Error, time::Duration};
 
 use crate::{
     Output, Prepared, Show, View,
-    film::{DepthRange, Developed, Pixel, ToneMap, develop, develop_data},
+    film::{DepthRange, Developed, Pixel, ToneMap, develop, develop_data, develop_survey},
     image::{ExrPicture, ExrValue, NamedChannel, Packing, PictureFormat, encode_exr, encode_png},
 };
 
@@ -93,6 +93,7 @@ impl Picture<'_> {
         let (width, height) = (self.view().width, self.view().height);
         match self.output() {
             Output::Data(show) => develop_data(show, width, height, &self.data()).picture,
+            Output::Survey(survey) => develop_survey(survey, width, height, &self.data()).0,
             Output::Radiance => {
                 let rgb: Vec<[f32; 3]> = self.pixels.iter().map(Pixel::mean).collect();
                 develop(width, height, &rgb, look.exposure, look.tonemap)
@@ -143,6 +144,7 @@ fn channel_names(output: Output) -> &'static [&'static str] {
         Output::Data(Show::Uv) => &["uv.U", "uv.V"],
         Output::Data(Show::Id) => &["id"],
         Output::Data(Show::Cost) => &["cost.primitives", "cost.boxes"],
+        Output::Survey(_) => &["survey.rays", "survey.Y", "survey.Y2"],
     }
 }
 

@@ -2,15 +2,19 @@
 use std::collections::BTreeMap;
 
 use durer_accel::BuildOptions;
-use durer_core::{math::Vector3, sampling::SamplerKind, spectrum::Basis};
+use durer_core::{
+    math::Vector3,
+    sampling::SamplerKind,
+    spectrum::{Basis, Carried},
+};
 use durer_io::import::Imported;
-use durer_model::filter::Filter;
+use durer_model::{filter::Filter, light::Light};
 use durer_render::{
     Scene,
     compile::{self, CompileOptions},
     drive::{Antialias, Job, Nesting, Settings},
     film::Tile,
-    integrator::{Integrator, Output, Show},
+    integrator::{Integrator, Output, Particles, Show},
 };
 use durer_scene::{Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
@@ -61,6 +65,9 @@ impl Prepared {
     /// # Errors
     /// Why there is no bound, as a clause.
     pub fn brightest(&self) -> Result<f32, &str> {
+        if self.settings.carried == Carried::Wavelengths {
+            return Err("bounds are known of red, green and blue, and rays carry wavelengths");
+        }
         match self.integrator.bounded() {
             Some(gloss) => self.scene.brightest(gloss),
             None => Err("paths also follow the light between matte surfaces"),
@@ -118,7 +125,10 @@ pub(crate) fn prepared(
     check_content(desc, &scene, options.nothing, diagnostics)?;
     let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
     filter(desc, &mut scene, integrator.output(), eye.total, diagnostics);
-    check_antialias(options, &scene, &*integrator, diagnostics);
+    let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
+    let carried = options.carried.unwrap_or(of_film);
+    check_antialias(options, &scene, (&*integrator, carried), diagnostics);
+    check_particles(&scene, &*integrator, diagnostics)?;
     let settings = Settings {
         samples: eye.total,
         sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
@@ -127,6 +137,7 @@ pub(crate) fn prepared(
         threads: options.threads.unwrap_or_else(all_cores),
         crop: options.crop,
         antialias: options.antialias,
+        carried,
     };
     Some(Prepared {
         scene,
@@ -184,10 +195,16 @@ fn has_visible_sky(scene: &Scene) -> bool {
 fn check_antialias(
     options: &Options,
     scene: &Scene,
-    integrator: &dyn Integrator,
+    (integrator, carried): (&dyn Integrator, Carried),
     diagnostics: &mut Diagnostics,
 ) {
     if options.antialias == Antialias::Supersample {
+        return;
+    }
+    if carried == Carried::Wavelengths {
+        let message = "adaptive antialiasing compares single samples, and four wavelengths are no colour: pixels are \
+                       supersampled";
+        diagnostics.warning(Location::None, message);
         return;
     }
     if let Output::Data(_) = integrator.output() {
@@ -205,6 +222,47 @@ fn check_antialias(
                        supersampling suits blurred pictures better";
         diagnostics.note(Location::None, message);
     }
+}
+
+/// Says what particles from the lights cannot bring; `None` if they are all there is and the camera sees none of them.
+fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut Diagnostics) -> Option<()> {
+    let are_all = match integrator.particles() {
+        Particles::None => return Some(()),
+        Particles::Some => false,
+        Particles::All => true,
+    };
+    if !scene.view.is_connectible() {
+        let why = match scene.view.shutter.is_rolling() {
+            true => "with a rolling shutter the row that sees it has a moment of its own",
+            false => "no light can be traced to a camera of this kind",
+        };
+        if are_all {
+            let message = format!("integrator \"light\" cannot take this picture: {why}");
+            diagnostics.error(Location::None, message).hint("take \"bdpt\" or \"path\"");
+            return None;
+        }
+        diagnostics.note(Location::None, format!("particles are not joined to the camera: {why}"));
+    }
+    let what = match are_all {
+        true => "what it lights stays dark",
+        false => "it is only found from the eye",
+    };
+    for (light, name) in scene.lights.iter().zip(&*scene.light_names) {
+        if light.is_sampled() && !light.is_emitter() {
+            let message =
+                format!("light \"{name}\" sends no particles, as it does not fade with distance: {what}");
+            diagnostics.warning(Location::None, message);
+        }
+    }
+    let is_far = |light: &dyn Light| light.is_emitter() && (light.surrounds() || light.bounds().is_none());
+    if are_all && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light)) {
+        let message = format!(
+            "particles from far away reach no further than {} m around what has an end: a plane is dark beyond",
+            scene.extent.radius
+        );
+        diagnostics.warning(Location::None, message).hint("give the plane an edge, or take \"bdpt\"");
+    }
+    Some(())
 }
 
 /// Whether the camera has a lens or sees things for a while.
@@ -263,7 +321,7 @@ fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mu
             1
         }
         Output::Data(_) => asked.unwrap_or(1),
-        Output::Radiance => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
+        Output::Radiance | Output::Survey(_) => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
     }
 }
 

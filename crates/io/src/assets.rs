@@ -86,6 +86,12 @@ impl FileAssets {
     pub fn files_read(&self) -> Vec<PathBuf> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
     }
+    /// The file at `path`, if it was asked for and found before.
+    pub(crate) fn read_as(&self, path: &str) -> Option<PathBuf> {
+        let file = self.folder.join(relative_names(path)?).canonicalize().ok()?;
+        let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        found.contains(&file).then_some(file)
+    }
     /// The path of the file in the folder of `path` whose name is that of `path` but for the letter case, if there is
     /// one: models are made on systems that do not tell them apart.
     pub(crate) fn in_other_case(&self, path: &str) -> Option<String> {

@@ -14,7 +14,7 @@ pub mod shape;
 mod surface;
 pub mod texture;
 
-use durer_core::spectrum::{Basis, Color};
+use durer_core::spectrum::{Basis, Color, Spectrum};
 use durer_scene::{ColorInput, FloatInput};
 
 pub use medium::Medium;
@@ -33,25 +33,49 @@ pub struct ShadeCx<'a> {
 }
 
 impl ShadeCx<'_> {
-    /// The colour of `input` at a point.
+    /// The colour of `input` at a point; of a measured curve, the one that stands for it.
     #[inline]
-    pub fn color(&self, input: ColorInput, at: &TextureAt) -> Color {
+    pub fn color(&self, input: &ColorInput, at: &TextureAt) -> Color {
         match input {
-            ColorInput::Constant(color) => color,
-            ColorInput::Texture(index) => {
-                let color = self.textures[index as usize].color(self, at);
-                if let Some(log) = self.log {
-                    note(log, index, at, Looked::Color(color));
-                }
-                color
-            }
+            ColorInput::Constant(color) | ColorInput::Curve(color, _) => *color,
+            ColorInput::Texture(index) => self.looked_up(*index, at),
         }
     }
-    /// No component of `input` is of larger magnitude anywhere.
-    pub fn largest_color(&self, input: ColorInput) -> f32 {
+    /// The lanes of `input` at a point, a weight; every component is first brought into a range by `f`.
+    #[inline]
+    pub fn weight(&self, input: &ColorInput, at: &TextureAt, f: impl Fn(f32) -> f32) -> Spectrum {
         match input {
-            ColorInput::Constant(color) => color.rgb.into_iter().fold(0.0, |most: f32, v| most.max(v.abs())),
-            ColorInput::Texture(index) => self.textures[index as usize].largest(self),
+            ColorInput::Constant(color) => self.basis.reflectance(color.map(f)),
+            ColorInput::Texture(index) => match self.basis {
+                Basis::Rgb => self.basis.reflectance(self.looked_up(*index, at).map(f)),
+                Basis::Spectral(_) => self.weight_looked_up(*index, at).map(f),
+            },
+            ColorInput::Curve(color, curve) => self.basis.curve(curve, *color).map(f),
+        }
+    }
+    #[inline]
+    fn looked_up(&self, index: u32, at: &TextureAt) -> Color {
+        let color = self.textures[index as usize].color(self, at);
+        if let Some(log) = self.log {
+            note(log, index, at, Looked::Color(color));
+        }
+        color
+    }
+    fn weight_looked_up(&self, index: u32, at: &TextureAt) -> Spectrum {
+        if self.log.is_some() {
+            self.looked_up(index, at);
+        }
+        self.textures[index as usize].weight(&ShadeCx { log: None, ..*self }, at)
+    }
+    /// No component of `input` is of larger magnitude anywhere.
+    pub fn largest_color(&self, input: &ColorInput) -> f32 {
+        let largest = |color: &Color| color.rgb.into_iter().fold(0.0, |most: f32, v| most.max(v.abs()));
+        match input {
+            ColorInput::Constant(color) => largest(color),
+            ColorInput::Texture(index) => self.textures[*index as usize].largest(self),
+            ColorInput::Curve(color, curve) => {
+                curve.ends().into_iter().fold(largest(color), |most, v| most.max(v.abs()))
+            }
         }
     }
     /// The magnitude of `input` is larger nowhere.

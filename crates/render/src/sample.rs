@@ -1,6 +1,6 @@
 //! What travels through light transport: the context of a sample, its rays and what it yields.
 use durer_core::{
-    math::{Point3, Ray},
+    math::{Point2, Point3, Ray},
     sampling::Sampler,
     spectrum::{Basis, Spectrum},
 };
@@ -48,6 +48,8 @@ pub struct PathRay {
     pub compression: f32,
     /// Some bounce before was blurred.
     pub is_blurred: bool,
+    /// It went where only the leading wavelength goes: the others carry nothing.
+    pub is_collapsed: bool,
     /// The point of a surface that the ray leaves; rounding errors before its origin, on the way all the same. The origin
     /// if it leaves none.
     pub from: Point3,
@@ -73,6 +75,7 @@ impl PathRay {
             lit: Lit { p: ray.o, n: None, time: ray.time },
             compression: 1.0,
             is_blurred: false,
+            is_collapsed: false,
             from: ray.o,
             media: MediumStack::default(),
             walked: 0.0,
@@ -131,8 +134,17 @@ pub enum Value {
     Data(Option<[f32; 3]>),
 }
 
-/// What one sample yields; one reusable buffer per worker.
+/// Light that a sample found for a place of the picture which is not its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Splat {
+    /// The place, in pixels from the upper left corner; some lie around the picture.
+    pub film: Point2,
+    /// Radiance, for a picture of area 1: its mean over the samples of all pixels is that of the picture.
+    pub radiance: Spectrum,
+}
+
+/// What one sample yields; one reusable buffer per worker.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contribution {
     /// The value.
     pub value: Value,
@@ -140,10 +152,12 @@ pub struct Contribution {
     pub rays: u64,
     /// What was wrong with the bodies it went through.
     pub imbalances: Imbalances,
+    /// What it found for other places. Whoever takes a sample empties it before the next.
+    pub splats: Vec<Splat>,
 }
 
 impl Default for Contribution {
     fn default() -> Self {
-        Self { value: Value::Data(None), rays: 0, imbalances: Imbalances::default() }
+        Self { value: Value::Data(None), rays: 0, imbalances: Imbalances::default(), splats: Vec::new() }
     }
 }

@@ -12,14 +12,18 @@ use durer_core::{
 };
 use durer_model::{
     Surface,
-    light::Light,
+    light::{Extent, Light},
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
     texture::{Filters, Footprint, Texture},
 };
 use durer_scene::Mesh;
 
-use crate::{Media, MediumStack, SampleCx, View, light_sampler::LightChooser, probe::Probe};
+use crate::{
+    Media, MediumStack, SampleCx, View,
+    light_sampler::{Emitters, LightChooser},
+    probe::Probe,
+};
 
 /// A thing with a name and a material: what a hit belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,6 +102,10 @@ pub struct Scene {
     pub(crate) far: Arc<[u32]>,
     /// By which one of the lights is chosen that rays can be cast to.
     pub(crate) chooser: Arc<LightChooser>,
+    /// Those that send particles, once some are sent.
+    pub(crate) emitters: OnceLock<Emitters>,
+    /// A ball around everything finite.
+    pub extent: Extent,
     /// Names of the lights.
     pub light_names: Arc<[String]>,
     /// The camera.
@@ -292,6 +300,8 @@ impl Scene {
             view,
             start: MediumStack::default(),
             brightest: Default::default(),
+            emitters: OnceLock::new(),
+            extent: self.extent,
             report: self.report,
             objects: Arc::clone(&self.objects),
             materials: Arc::clone(&self.materials),
@@ -321,6 +331,10 @@ impl Scene {
     /// The material of an object.
     pub fn material(&self, object: Id<Object>) -> &dyn Material {
         &*self.materials[self.object(object).material as usize]
+    }
+    /// Whether some shape has no end.
+    pub fn is_endless(&self) -> bool {
+        self.shapes.iter().chain(self.movers.iter()).any(|placed| !placed.shape.bounds().is_finite())
     }
     /// The lights that surround the scene: those with an ambient term, or seen by rays that left.
     pub fn surroundings(&self) -> impl Iterator<Item = &dyn Light> {

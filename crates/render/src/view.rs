@@ -31,6 +31,17 @@ pub struct View {
     pub speed: f32,
 }
 
+/// A point as the camera sees it, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighted {
+    /// Where the eye ray starts.
+    pub from: Point3,
+    /// The place in the picture, in pixels; it may lie around it.
+    pub film: Point2,
+    /// See [`View::importance`].
+    pub importance: f32,
+}
+
 /// `render_from_camera`, at every moment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraPlacement {
@@ -123,6 +134,37 @@ impl View {
         } else {
             Ray { d: ray.d.normalize(), ..ray }
         }
+    }
+    /// How the camera sees a point of render space at `time` seconds, through the point `lens` of its lens; `None` if it does
+    /// not.
+    pub fn sees(&self, p: Point3, lens: Point2, time: f32) -> Option<Sighted> {
+        let render_from_camera = self.placement.at(time);
+        let seen = self.camera.sees(render_from_camera.inverse().point(p), lens)?;
+        let film = Point2::new(seen.film.x * self.width as f32, seen.film.y * self.height as f32);
+        let from = render_from_camera.point(seen.from);
+        let d = render_from_camera.vector(seen.d).normalize();
+        Some(Sighted { from, film, importance: self.importance(d, (p - from).length(), time) })
+    }
+    /// The density of eye rays over an area that faces unit direction `d`, at a distance from their origin: that of
+    /// [`durer_model::camera::Camera::importance`], in render space. A placement `M` makes areas across `d` larger by
+    /// `|det M| / |M d|`, for unit `d` of camera space.
+    pub fn importance(&self, d: Vector3, distance: f32, time: f32) -> f32 {
+        let m = self.placement.at(time);
+        let along = m.inverse().vector(d);
+        let stretch = 1.0 / along.length();
+        let det = m.to_f64().matrix3.determinant().abs() as f32;
+        self.camera.importance(along * stretch, distance / stretch) * stretch / det
+    }
+    /// Whether light can be connected to the camera. Not where each row of the picture has a time of its own: which one
+    /// a particle is seen in is known too late.
+    pub fn is_connectible(&self) -> bool {
+        self.camera.is_connectible() && !self.shutter.is_rolling()
+    }
+    /// The places around the picture that show the same as `film`, in pixels.
+    pub fn repeats(&self, film: Point2) -> impl Iterator<Item = Point2> + use<> {
+        let (w, h) = (self.width as f32, self.height as f32);
+        let all = self.camera.repeats(Point2::new(film.x / w, film.y / h));
+        all.into_iter().map(move |at| Point2::new(at.x * w, at.y * h))
     }
     /// The camera's placement at `time` seconds.
     pub fn render_from_camera(&self, time: f32) -> Transform {

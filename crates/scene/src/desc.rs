@@ -1,7 +1,11 @@
 //! The scene as plain data: what importers write and `compile` reads.
-use std::sync::Arc;
+use std::{collections::BTreeSet, sync::Arc};
 
-use durer_core::{Id, glam::DAffine3, math::Motion};
+use durer_core::{
+    Id,
+    glam::{DAffine3, DVec3},
+    math::{Bounds3, Motion},
+};
 use serde::Serialize;
 
 use crate::{Location, Mesh, Params};
@@ -57,6 +61,8 @@ pub struct FilmDesc {
     pub height: Option<u32>,
     /// Samples per pixel.
     pub samples: Option<u32>,
+    /// Rays shall carry wavelengths instead of red, green and blue.
+    pub spectral: bool,
     /// Diagonal of the film in mm, for cameras in which it has a size.
     pub diagonal_mm: Option<f32>,
     /// Speed of the film; 100 leaves pictures as they are.
@@ -124,6 +130,17 @@ pub struct ShapeDesc {
     pub area_light: Option<Arc<Node>>,
 }
 
+/// A way in which a scene moves that is not part of its description: the file can be read at moments of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct AnimationDesc {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The time of its first key, in seconds.
+    pub start: f32,
+    /// The time of its last key, in seconds.
+    pub end: f32,
+}
+
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SceneDesc {
@@ -152,4 +169,20 @@ pub struct SceneDesc {
     pub meshes: Vec<Arc<Mesh>>,
     /// Shapes.
     pub shapes: Vec<ShapeDesc>,
+    /// The sets of materials that its file offers, by name; some may be empty.
+    pub variants: Vec<String>,
+    /// The animations of its file.
+    pub animations: Vec<AnimationDesc>,
+    /// Indices of the shapes that are elsewhere, or of another form, at other moments of the animation. They are kept apart
+    /// from what rests, so that this has the same bits at all moments and is made once.
+    #[serde(skip)]
+    pub apart: BTreeSet<usize>,
+    /// Where render space has its origin; at the camera if `None`. Of a scene that is described at one moment after another
+    /// it is the same for all, so that what rests has the same bits.
+    #[serde(skip)]
+    pub origin: Option<DVec3>,
+    /// What a camera that is made up sees all of; the shapes if `None`. Of a scene that is described at one moment after
+    /// another it is the same for all.
+    #[serde(skip)]
+    pub extent: Option<Bounds3>,
 }

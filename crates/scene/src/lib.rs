@@ -18,15 +18,15 @@ mod span;
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
-    CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource,
-    TextureDesc, TextureValue,
+    AnimationDesc, CameraDesc, FilmDesc, LightDesc, MaterialRef, NamedNode, Node, SceneDesc, ShapeDesc,
+    ShapeSource, TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
 pub use schema::{
-    Args, ColorInput, Entry, FloatInput, Kind, Missing, ParamDefault, ParamSpec, ParamType, Schema,
-    TextureNames, find,
+    Args, ColorInput, Entry, FloatInput, Kind, LightInput, Missing, ParamDefault, ParamSpec, ParamType,
+    Schema, TextureNames, find,
 };
 pub use span::{Location, SourceId, Sources, Span};

@@ -6,7 +6,7 @@ mod names;
 mod param;
 
 pub use args::{Args, FloatInput, Missing};
-pub use color::ColorInput;
+pub use color::{ColorInput, LightInput};
 pub use names::TextureNames;
 pub use param::{ParamDefault, ParamSpec, ParamType};
 

@@ -47,10 +47,7 @@ fn ask<T>(name: &str, ty: ValueType, data: Data, ask: impl Fn(&mut Args<'_>) -> 
 }
 
 fn color(name: &str, ty: ValueType, data: Data) -> ([f32; 3], String) {
-    ask(name, ty, data, |args| match args.color_input(name) {
-        ColorInput::Constant(color) => color.rgb,
-        ColorInput::Texture(_) => panic!("no texture"),
-    })
+    ask(name, ty, data, |args| args.color(name).rgb)
 }
 
 fn word(word: &str) -> Data {
@@ -113,4 +110,26 @@ fn bad_spectra_are_told() {
     );
     assert!(said(Data::Floats(vec![500.0, 1.0, 500.0, 1.0])).contains("must rise"));
     assert!(said(Data::Floats(vec![500.0])).contains("expected"));
+}
+
+#[test]
+fn measured_spectra_keep_their_curves() {
+    let red = || Data::Floats(vec![400.0, 0.0, 590.0, 0.0, 610.0, 0.9, 780.0, 0.9]);
+    let (found, _) = ask("share", ValueType::Spectrum, red(), |args| args.color_input("share"));
+    let ColorInput::Curve(color, curve) = found else { panic!("no curve: {found:?}") };
+    assert!((curve.at(600.0) - 0.45).abs() < 1e-6 && curve.at(500.0) == 0.0 && color.rgb[0] > 0.7);
+    // Of lights, colours stand for the curve where textures are multiplied.
+    let (found, _) = ask("light", ValueType::Spectrum, red(), |args| args.color_input("light"));
+    assert!(matches!(found, ColorInput::Constant(_)), "{found:?}");
+
+    let index = |ty, data| ask("eta", ty, data, |args| args.refraction("eta"));
+    let ((usual, curve), _) = index(ValueType::Spectrum, word("glass-SF11"));
+    let curve = curve.expect("a curve");
+    // Schott's catalogue: n_F and n_C.
+    assert!((usual - 1.7847).abs() < 1e-4, "{usual}");
+    assert!((curve.at(486.13) - 1.806_45).abs() < 1e-4 && (curve.at(656.27) - 1.775_99).abs() < 1e-4);
+    let flat = Data::Floats(vec![400.0, 1.5, 700.0, 1.5]);
+    assert_eq!(index(ValueType::Spectrum, flat), ((1.5, None), String::new()));
+    let (_, said) = index(ValueType::Spectrum, Data::Floats(vec![400.0, 16.0, 587.6, 1.5]));
+    assert!(said.contains("\"eta\" is 16 at some wavelengths, expected 0.1 to 10"), "{said}");
 }

@@ -1,19 +1,18 @@
-//! Changes: of the scene on disk, and of what the viewer wants of it.
+//! Changes of what the viewer wants of the scene.
 use std::sync::Arc;
 
 use durer::{
     Options, Prepared, Wanted,
+    integrator::Surveyed,
     math::Motion,
     scene::{Diagnostics, Node},
 };
-use serde_json::json;
 
 use crate::{
     director::Director,
     form::{Complaint, Effort, FormId},
     layer::Layer,
     settings::{Look, Settings},
-    stage::Opened,
     take::Take,
 };
 
@@ -63,53 +62,6 @@ impl Director {
         }
     }
 
-    /// The scene is another, or could not be opened.
-    pub(crate) fn change_scene(&mut self) {
-        let opened = self.stage.opened();
-        if opened.revision != self.opened.revision {
-            self.reopen(opened);
-        }
-        self.told = None;
-    }
-
-    /// Goes on with the scene as it is now on disk: with this viewer's film, look and camera, without his changes of what is
-    /// in the scene.
-    fn reopen(&mut self, opened: Arc<Opened>) {
-        let old = std::mem::replace(&mut self.original, Arc::clone(&opened.original));
-        let mut settings = (*self.original).clone();
-        settings.look = self.settings.look;
-        let (new, mine, was) = (&mut settings.options, &self.settings.options, &old.options);
-        let kept = |now, mine: Option<u32>, was| if mine == was { now } else { mine };
-        new.width = kept(new.width, mine.width, was.width);
-        new.height = kept(new.height, mine.height, was.height);
-        new.samples = kept(new.samples, mine.samples, was.samples);
-        if mine.time != was.time {
-            new.time = mine.time;
-        }
-        if self.settings.integrator() != old.integrator() {
-            settings.desc.integrator = Some(self.settings.integrator());
-        }
-        if self.settings.camera < settings.desc.cameras.len() {
-            settings.choose_camera(self.settings.camera);
-            if !self.is_exact(&old) {
-                let moved = self.settings.camera().world_from_camera.clone();
-                settings.desc.cameras[settings.camera].world_from_camera = moved;
-            }
-        }
-        self.kept = opened.studio.kept.clone();
-        self.prepared = Arc::clone(&opened.prepared);
-        self.shown = None;
-        self.undo = vec![Undo::All(Box::new((*self.original).clone()))];
-        self.opened = opened;
-        self.settings = settings;
-        self.effort = Effort::Again;
-        self.prepare();
-        let scene = json!({
-            "type": "scene", "scene": self.scene_told(), "camera": self.camera_told(), "forms": self.all_forms(),
-        });
-        self.send(&scene);
-    }
-
     /// Does what requests made necessary. If the scene as it is wanted cannot be, it stays as it was.
     pub(crate) fn prepare(&mut self) {
         let effort = std::mem::take(&mut self.effort);
@@ -156,9 +108,14 @@ impl Director {
             _ => (studio.retake(wanted, (&self.kept, &self.prepared.scene), said)?, None),
         };
         let kept = kept.unwrap_or_else(|| self.kept.clone());
-        let shown = match self.layer.integrator() {
-            None => None,
-            Some(integrator) => {
+        let shown = match (self.layer, self.layer.integrator()) {
+            (Layer::Survey(survey), _) => {
+                let again = studio.retake(wanted, (&kept, &prepared.scene), said)?;
+                let integrator = Surveyed { integrator: again.integrator, survey };
+                Some(Arc::new(Prepared { integrator: Box::new(integrator), ..again }))
+            }
+            (_, None) => None,
+            (_, Some(integrator)) => {
                 // One sample is enough for what is not averaged.
                 let options = Options { samples: None, ..options.clone() };
                 let wanted = Wanted { integrator: &integrator, options: &options, ..wanted };

@@ -159,6 +159,10 @@ impl Director {
                     // Whoever asked may be gone.
                     let _ = answer.send(self.save(format));
                 }
+                Request::Look(answer) => {
+                    let look = self.settings.look;
+                    let _ = answer.send((look.exposure, look.tonemap(&self.prepared.integrator_name)));
+                }
                 Request::Copy(answer) => {
                     let _ = answer.send(Copied {
                         settings: self.settings.clone(),

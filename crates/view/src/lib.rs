@@ -9,14 +9,17 @@
 mod answer;
 mod camera;
 mod change;
+mod develop;
 mod director;
 mod form;
 mod guard;
 mod hear;
 mod layer;
 mod message;
+mod pack;
 mod page;
 mod pick;
+mod reopen;
 mod save;
 mod server;
 mod session;
@@ -102,7 +105,13 @@ impl Live {
         let opened = opener.open(imported, 1).map_err(StartError::Scene)?;
         let stage = Arc::new(Stage::new(scene, opened));
         let (stop, stopped) = signal::channel(false);
-        let server = Server { guard: guard.clone(), stage: Arc::clone(&stage), page, stop: stopped };
+        let server = Server {
+            guard: guard.clone(),
+            stage: Arc::clone(&stage),
+            page,
+            stop: stopped,
+            developing: tokio::sync::Semaphore::new(1),
+        };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let serve = move || {
             runtime.block_on(async move {

@@ -1,22 +1,23 @@
 //! Files for the viewer to keep: the picture, and the scene as he changed it.
 use durer::{
-    Prepared,
-    export::pbrt::{Film, text},
+    Prepared, ToWrite,
+    export::{Files, pbrt::Written},
     film::ToneMap,
     image::PictureFormat,
     picture::{Look, Picture},
-    scene::Data,
 };
 
-use crate::{settings::Settings, stage::Opened, take::Take};
+use crate::{pack::packed, settings::Settings, stage::Opened, take::Take};
 
 /// What is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SaveFormat {
     /// The picture.
     Picture(PictureFormat),
-    /// The scene.
+    /// The scene; with files that lie within the original, as an archive with all that it needs.
     Pbrt,
+    /// The scene with all that it needs, as an archive.
+    Zip,
 }
 
 /// A file in the making.
@@ -33,15 +34,20 @@ impl SaveFormat {
             "png" => Some(Self::Picture(PictureFormat::Png)),
             "exr" => Some(Self::Picture(PictureFormat::Exr)),
             "pbrt" => Some(Self::Pbrt),
+            "zip" => Some(Self::Zip),
             _ => None,
         }
     }
+
+    /// Words that [`SaveFormat::from_word`] knows.
+    pub(crate) const WORDS: &str = "png, exr, pbrt or zip";
 
     fn suffix_and_mime(self) -> (&'static str, &'static str) {
         match self {
             Self::Picture(PictureFormat::Png) => ("png", "image/png"),
             Self::Picture(PictureFormat::Exr) => ("exr", "image/x-exr"),
             Self::Pbrt => ("pbrt", "text/plain; charset=utf-8"),
+            Self::Zip => ("zip", "application/zip"),
         }
     }
 }
@@ -56,63 +62,55 @@ pub(crate) fn file(
     (settings, opened): (&Settings, &Opened),
     (prepared, take): (&Prepared, &Take),
 ) -> Result<File, String> {
-    let bytes = match format {
+    let stem = stem(&settings.desc.name);
+    let (format, bytes) = match format {
         SaveFormat::Picture(picture) => {
             let pixels = take.pixels().ok_or("there is no sample of the picture yet: wait a moment")?;
             let interrupted = !take.is_done(&prepared.job());
             let tonemap: ToneMap = settings.look.tonemap(&prepared.integrator_name);
             let look = Look { exposure: settings.look.exposure, tonemap };
             let whole = Picture { scene, prepared, pixels, render: take.busy(), interrupted };
-            whole.encode(picture, look).map_err(|e| e.to_string())?
+            (format, whole.encode(picture, look).map_err(|e| e.to_string())?)
         }
-        SaveFormat::Pbrt => pbrt(scene, settings, opened)?.into_bytes(),
+        SaveFormat::Pbrt | SaveFormat::Zip => scene_file(format, (scene, &stem), settings, opened)?,
     };
     let (suffix, mime) = format.suffix_and_mime();
-    Ok(File { name: format!("{}.{suffix}", stem(&settings.desc.name)), mime, bytes })
+    Ok(File { name: format!("{stem}.{suffix}"), mime, bytes })
 }
 
-/// The scene as the viewer changed it.
-fn pbrt(scene: &str, settings: &Settings, opened: &Opened) -> Result<String, String> {
-    let Settings { desc, options, camera, .. } = settings;
-    let mut desc = desc.clone();
-    let taken = desc.cameras.get_mut(*camera).ok_or("there is no camera")?;
-    let scales = options.lens.focus.is_none();
-    *taken = options.lens.given_to(taken.clone());
-    let view = &opened.prepared.scene.view;
-    let film = Film {
-        width: options.width.unwrap_or(view.width),
-        height: options.height.unwrap_or(view.height),
-        samples: options.samples.or(desc.film.samples).unwrap_or(opened.prepared.settings.samples),
-        sampler: options.sampler.unwrap_or_default(),
-    };
-    if let Some(param) = taken.node.params.get("focuspixel").filter(|_| scales) {
-        // It speaks of the picture that the scene asked for.
-        let by = |now: u32, asked: Option<u32>| asked.map_or(1.0, |asked| now as f32 / asked.max(1) as f32);
-        let by = [by(film.width, desc.film.width), by(film.height, desc.film.height)];
-        let mut param = param.clone();
-        if let Data::Floats(pixel) = &mut param.data {
-            pixel.iter_mut().zip(by).for_each(|(at, by)| *at *= by);
+/// The text alone if that says everything, else an archive.
+fn scene_file(
+    format: SaveFormat,
+    names: (&str, &str),
+    settings: &Settings,
+    opened: &Opened,
+) -> Result<(SaveFormat, Vec<u8>), String> {
+    if format == SaveFormat::Pbrt {
+        let alone = pbrt(Files::Embedded, names, settings, opened)?;
+        if alone.beside.is_empty() {
+            return Ok((format, alone.text.into_bytes()));
         }
-        taken.node.params.set(param);
     }
-    let mut remarks = vec![
-        format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION")),
-        "Paths of files start where the original lies: this file belongs there.".to_owned(),
-    ];
-    let mut words = String::new();
-    if options.seed != 0 {
-        words += &format!(" --seed {}", options.seed);
+    let whole = pbrt(Files::All, names, settings, opened)?;
+    Ok((SaveFormat::Zip, packed(names.1, whole)?))
+}
+
+/// The scene as the viewer changed it; `stem` is what the file will be called.
+fn pbrt(
+    files: Files,
+    (scene, stem): (&str, &str),
+    settings: &Settings,
+    opened: &Opened,
+) -> Result<Written, String> {
+    let mut remarks =
+        vec![format!("durer {}: {scene} as it was changed in durer view.", env!("CARGO_PKG_VERSION"))];
+    if files == Files::Embedded {
+        remarks.push("Paths of files start where the original lies: this file belongs there.".to_owned());
     }
-    if options.time != 0.0 {
-        words += &format!(" --time-at {}", options.time);
-    }
-    if let Some(shutter) = options.shutter {
-        words += &format!(" --shutter {},{}", shutter.min, shutter.max);
-    }
-    if !words.is_empty() {
-        remarks.push(format!("What scene files do not say: render it with{words}."));
-    }
-    text(&desc, &opened.studio.imported.assets, (film, *camera), &remarks).map_err(|refused| {
+    let Settings { desc, options, camera, .. } = settings;
+    let (assets, prepared) = (&opened.studio.imported.assets, &*opened.prepared);
+    let whole = ToWrite { desc, assets, options, camera: *camera, prepared };
+    whole.pbrt(files, &format!("{stem}-files"), &remarks).map_err(|refused| {
         let list: String = refused.iter().map(|what| format!("\n  {what}")).collect();
         format!("this scene cannot be written as .pbrt, as the language has no words for it:{list}")
     })

@@ -16,6 +16,7 @@ use tokio::{
 };
 
 use crate::{
+    develop::developed,
     guard::{Guard, asked, secret},
     page::PageSource,
     save::{File, SaveFormat},
@@ -34,6 +35,8 @@ pub(crate) struct Server {
     pub(crate) guard: Guard,
     pub(crate) stage: Arc<Stage>,
     pub(crate) page: PageSource,
+    /// One picture is developed at a time.
+    pub(crate) developing: Semaphore,
     /// True once the server stops.
     pub(crate) stop: watch::Receiver<bool>,
 }
@@ -80,12 +83,18 @@ impl Server {
         if let Err((status, why)) = self.guard.check(request.uri(), request.headers()) {
             return text(status, why);
         }
-        if request.method() != Method::GET {
-            let mut refused = text(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
-            refused.headers_mut().insert(header::ALLOW, HeaderValue::from_static("GET"));
+        let (needed, words) = match request.uri().path() {
+            "/develop" => (Method::POST, "POST"),
+            _ => (Method::GET, "GET"),
+        };
+        if request.method() != needed {
+            let mut refused =
+                text(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered, and POST by /develop");
+            refused.headers_mut().insert(header::ALLOW, HeaderValue::from_static(words));
             return refused;
         }
         match request.uri().path() {
+            "/develop" => self.develop(request).await,
             "/" => self.page(),
             "/socket" => self.socket(&mut request),
             "/save" => self.save(&request).await,
@@ -143,10 +152,31 @@ impl Server {
         }
     }
 
+    /// A picture of light as the session shows its own.
+    async fn develop(&self, request: Request<Incoming>) -> Answer {
+        let id = asked(request.uri(), "session").unwrap_or_default();
+        let Some(session) = self.stage.session(id) else {
+            return text(StatusCode::NOT_FOUND, "there is no such session");
+        };
+        let (sender, look) = oneshot::channel();
+        session.ask(session::Request::Look(sender));
+        let Ok(look) = look.await else {
+            return text(StatusCode::GONE, "the session is over");
+        };
+        match developed(request.into_body(), look, &self.developing).await {
+            Ok(png) => plain(StatusCode::OK, "image/png", png.into()),
+            Err(why) => {
+                let why = format!("{why}\n").into();
+                plain(StatusCode::UNSUPPORTED_MEDIA_TYPE, "text/plain; charset=utf-8", why)
+            }
+        }
+    }
+
     async fn save(&self, request: &Request<Incoming>) -> Answer {
         let asked = |key: &str| asked(request.uri(), key).unwrap_or_default();
         let Some(format) = SaveFormat::from_word(asked("format")) else {
-            return text(StatusCode::BAD_REQUEST, "format is png, exr or pbrt");
+            let why = format!("format is {}\n", SaveFormat::WORDS);
+            return plain(StatusCode::BAD_REQUEST, "text/plain; charset=utf-8", why.into());
         };
         let Some(session) = self.stage.session(asked("session")) else {
             return text(StatusCode::NOT_FOUND, "there is no such session");

@@ -11,6 +11,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use durer::film::ToneMap;
 use tokio::sync::{mpsc, oneshot};
 
 use crate::{
@@ -70,6 +71,8 @@ pub(crate) enum Request {
     Answered,
     /// A file.
     Save(SaveFormat, oneshot::Sender<Result<File, String>>),
+    /// How its light becomes colours.
+    Look(oneshot::Sender<(f32, ToneMap)>),
     /// What it shows, for another session.
     Copy(Sender<Copied>),
 }

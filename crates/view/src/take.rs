@@ -7,7 +7,7 @@ use std::{
 use durer::{
     Job, Output,
     drive::{Growing, Sparse},
-    film::{Developed, Pixel, develop, develop_data},
+    film::{Developed, Pixel, develop, develop_data, develop_survey},
     image::{Packing, encode_png},
 };
 
@@ -46,7 +46,9 @@ pub(crate) struct Take {
     pub(crate) begun: Instant,
     /// The squares of the next look; `None` once samples are taken of all pixels.
     edge: Option<u32>,
+    /// The last one, and the one that is going on.
     sparse: Option<(u32, Sparse)>,
+    looking: Option<Sparse>,
     growing: Option<Growing>,
     /// Counts what there was to see.
     pub(crate) news: u64,
@@ -61,7 +63,7 @@ pub(crate) struct Shown {
     pub(crate) png: Vec<u8>,
     /// Nearest and farthest depth.
     pub(crate) range: Option<[f32; 2]>,
-    /// Tests of a white pixel.
+    /// Tests, rays or noise of a white pixel.
     pub(crate) white: Option<f32>,
 }
 
@@ -73,6 +75,7 @@ impl Take {
             begun: Instant::now(),
             edge: Some(pace.first_edge(pixels)),
             sparse: None,
+            looking: None,
             growing: None,
             news: 0,
             busy: Duration::ZERO,
@@ -128,9 +131,17 @@ impl Take {
         let start = Instant::now();
         match self.edge {
             Some(edge) => {
-                let Some(sparse) = job.sparse(edge, cancel) else { return };
-                pace.learn(sparse.values.len() as u64, start.elapsed());
-                self.sparse = Some((edge, sparse));
+                let looking = self.looking.get_or_insert_with(|| Sparse::new(job, edge));
+                let samples = looking.look(job, enough, cancel);
+                if cancel.load(Ordering::Relaxed) {
+                    return;
+                }
+                pace.learn(samples, start.elapsed());
+                // Whoever asks something, or waits for a turn, does not wait for the rest of it.
+                if !looking.is_done() {
+                    return;
+                }
+                self.sparse = self.looking.take().map(|sparse| (edge, sparse));
                 self.edge = EDGES.iter().copied().find(|&e| e < edge && e > 1);
             }
             None => {
@@ -160,6 +171,10 @@ impl Take {
             Output::Data(show) => {
                 let data = develop_data(show, width, height, &values);
                 (data.picture, data.depth.map(|d| [d.near, d.far]), data.white_tests)
+            }
+            Output::Survey(survey) => {
+                let (picture, white) = develop_survey(survey, width, height, &values);
+                (picture, None, Some(white))
             }
             Output::Radiance => {
                 let rgb: Vec<[f32; 3]> = values.into_iter().map(Option::unwrap_or_default).collect();

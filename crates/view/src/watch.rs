@@ -82,7 +82,7 @@ impl Opener {
                 }
             }
             known = seen;
-            match self.open(durer::open(&self.scene), revision + 1) {
+            match self.open(durer::open_for(&self.scene, &self.options), revision + 1) {
                 Ok(opened) => {
                     revision += 1;
                     let files = stamps(&self.files(&opened.studio.imported));

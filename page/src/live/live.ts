@@ -16,7 +16,7 @@ export type Hand = "orbit" | "fly" | "zoom";
 export type Pane = "picture" | "space";
 
 /** What is right of the divider. */
-export type Against = { is: "session"; session: Session } | { is: "image"; image: ImageBitmap; name: string };
+export type Against = { is: "session"; session: Session } | { is: "image"; image: ImageBitmap; name: string; light: Blob | null };
 
 /** Radians for a drag as high as the picture. */
 const TURN = 3.4;
@@ -138,10 +138,42 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
     });
   }
 
-  function hold(image: ImageBitmap, name: string): void {
+  /** Holds a picture against this one. `light` is the file that durer developed it from, and will again when exposure or tone map change. */
+  function hold(image: ImageBitmap, name: string, light: Blob | null = null): void {
     unsplit();
-    against.value = { is: "image", image, name };
+    against.value = { is: "image", image, name, light };
   }
+
+  /** A file of light as this picture is shown. */
+  async function developed(light: Blob): Promise<ImageBitmap> {
+    const words = new URLSearchParams(location.search);
+    words.set("session", main.link.session ?? "");
+    const answer = await fetch(`/develop?${words}`, { method: "POST", body: light });
+    if (!answer.ok) throw new Error((await answer.text()).trim() || `${answer.status} ${answer.statusText}`);
+    return createImageBitmap(await answer.blob());
+  }
+
+  /** Opens a picture's file: by the browser, or by durer what holds light. */
+  async function compareWith(file: File): Promise<void> {
+    const image = await createImageBitmap(file).catch(() => null);
+    if (image) hold(image, file.name);
+    else hold(await developed(file), file.name, file);
+  }
+
+  // What is compared is shown alike.
+  const shownAs = computed(() => JSON.stringify([main.forms.value.get("integrator")?.kind, main.forms.value.get("look")?.params.map((param) => param.value)]));
+  let first = true;
+  effect(() => {
+    void shownAs.value;
+    const now = against.peek();
+    if (first || now?.is !== "image" || !now.light) return void (first = false);
+    const { light, name } = now;
+    developed(light).then((image) => {
+      const still = against.peek();
+      if (still?.is === "image" && still.light === light) hold(image, name, light);
+      else image.close();
+    }, () => undefined);
+  });
 
   function unsplit(): void {
     const was = against.peek();
@@ -188,7 +220,7 @@ export function createLive(make: (query: string) => Socket, start: Start = {}) {
 
   return {
     looks, main, rays, tab, side, hand, pane, zoom, size, film, lying, against, divide, paused, cursor, hovered, picked, shownForm,
-    hands, moving, opening, point, choose, showForm, closeRays, split, hold, unsplit, home, pause, enlarge, actual,
+    hands, moving, opening, point, choose, showForm, closeRays, split, hold, compareWith, unsplit, home, pause, enlarge, actual,
   };
 }
 

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use durer::{
     FORMATS, Prepared, builtin,
-    scene::{Diagnostics, NamedNode, Node, SceneDesc, Severity, ShapeDesc},
+    scene::{AnimationDesc, Diagnostics, NamedNode, Node, SceneDesc, Severity, ShapeDesc},
 };
 use serde::Serialize;
 
@@ -28,6 +28,8 @@ pub(super) struct Info<'a> {
     pub(super) lights: Vec<Named<'a>>,
     pub(super) materials: Vec<Named<'a>>,
     pub(super) textures: Vec<TextureFacts<'a>>,
+    pub(super) animations: Vec<AnimationFacts<'a>>,
+    pub(super) variants: &'a [String],
     pub(super) film: Film<'a>,
     /// What the scene asks for.
     pub(super) integrator: Option<&'a str>,
@@ -77,6 +79,21 @@ pub(super) struct WorldBounds {
 pub(super) struct Named<'a> {
     pub(super) name: &'a str,
     pub(super) kind: &'a str,
+}
+
+/// Its place in the list is the index that `--animation` takes.
+#[derive(Serialize)]
+pub(super) struct AnimationFacts<'a> {
+    pub(super) name: &'a str,
+    /// First and last key, in seconds.
+    pub(super) start: f32,
+    pub(super) end: f32,
+}
+
+impl<'a> AnimationFacts<'a> {
+    fn of(animation: &'a AnimationDesc) -> Self {
+        Self { name: &animation.name, start: animation.start, end: animation.end }
+    }
 }
 
 #[derive(Serialize)]
@@ -140,6 +157,8 @@ impl<'a> Info<'a> {
             isa: prepared.map(|p| p.scene.accel.isa().name()),
             memory: prepared.map(|p| Memory::new(p, texture::image_bytes(desc, &imported.assets))),
             textures,
+            animations: desc.animations.iter().map(AnimationFacts::of).collect(),
+            variants: &desc.variants,
             film: Film {
                 width: desc.film.width,
                 height: desc.film.height,

@@ -12,7 +12,7 @@ use durer::{
 
 use super::{
     camera::CameraFacts,
-    facts::{Complaints, Counts, Info, Named, Phases, WorldBounds},
+    facts::{AnimationFacts, Complaints, Counts, Info, Named, Phases, WorldBounds},
     memory::Memory,
     texture::TextureFacts,
 };
@@ -57,6 +57,8 @@ pub(super) fn table(info: &Info<'_>, imported: &Imported, detail: Detail) -> Str
     row("cameras", cameras(info, detail));
     row("lights", vec![names(&info.lights, detail)]);
     row("materials", vec![names(&info.materials, detail)]);
+    row("animations", animations(info, detail));
+    row("variants", variants(info, detail));
     row("picture", picture(info));
     row("integrator", integrator(info));
     row("memory", info.memory.as_ref().map(memory).unwrap_or_default());
@@ -67,6 +69,34 @@ pub(super) fn table(info: &Info<'_>, imported: &Imported, detail: Detail) -> Str
     row("diagnostics", vec![diagnostics(&info.complaints)]);
     let complaints = report::render(info.scene, imported, Severity::Note, Looks::PLAIN);
     if complaints.is_empty() { text } else { format!("{text}\n{complaints}") }
+}
+
+/// Name or index, and when.
+fn animations(info: &Info<'_>, detail: Detail) -> Vec<String> {
+    let line = |(index, animation): (usize, &AnimationFacts<'_>)| {
+        let AnimationFacts { name, start, end } = animation;
+        let name = if name.is_empty() { format!("{index}") } else { (*name).to_owned() };
+        format!("{name}, from {start} s to {end} s")
+    };
+    cut(info.animations.iter().enumerate().map(line).collect(), detail)
+}
+
+fn variants(info: &Info<'_>, detail: Detail) -> Vec<String> {
+    let line = |(index, name): (usize, &String)| match name.as_str() {
+        "" => index.to_string(),
+        name => name.to_owned(),
+    };
+    cut(info.variants.iter().enumerate().map(line).collect(), detail)
+}
+
+/// As many lines as are asked for, and how many more there are.
+fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
+    let more = lines.len().saturating_sub(detail.lines());
+    lines.truncate(detail.lines());
+    if more > 0 {
+        lines.push(format!("and {} more", count(more as u64)));
+    }
+    lines
 }
 
 fn shapes(c: &Counts, desc: &SceneDesc) -> String {

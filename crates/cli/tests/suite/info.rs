@@ -23,6 +23,16 @@ Shape "trianglemesh" "point3 P" [-1 -1 0  1 -1 0  1 1 0] "integer indices" [0 1 
 Shape "sphere" "float radius" 0.5
 "#;
 
+/// A triangle with an animation.
+const MOVING: &str = r#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+        "samplers": [{"input": 1, "output": 0}]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [1]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+
 /// Paths of all keys that hold something other than an object or a list of objects.
 fn keys(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     match value {
@@ -52,9 +62,12 @@ fn documented(heading: &str) -> BTreeSet<String> {
 
 #[test]
 fn the_documented_keys_are_those_of_the_output() {
-    let place = Place::new().with("room.pbrt", ROOM);
+    let place = Place::new().with("room.pbrt", ROOM).with("moving.gltf", MOVING);
     let mut found = BTreeSet::new();
     keys(&place.done("info room.pbrt --json").json(), "", &mut found);
+    // An empty list shows no keys.
+    assert!(found.remove("animations"), "room.pbrt has an animation");
+    keys(&place.done("info moving.gltf --json").json(), "", &mut found);
     let documented = documented("## `durer info --json`");
     let missing: Vec<_> = found.difference(&documented).collect();
     let gone: Vec<_> = documented.difference(&found).collect();

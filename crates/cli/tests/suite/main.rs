@@ -1,8 +1,10 @@
 //! The built binary, run in folders of its own.
 
 mod complaints;
+mod convert;
 mod cost;
 mod environment;
+mod frames;
 mod info;
 mod interrupt;
 mod pictures;

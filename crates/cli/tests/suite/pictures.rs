@@ -125,8 +125,8 @@ fn a_picture_tells_how_it_was_made() {
 
 #[test]
 fn an_integrator_that_stands_in_is_named_as_what_it_is() {
-    let place = Place::new().with("bdpt.pbrt", &format!("Integrator \"bdpt\"\n{SPHERE}"));
-    let ran = place.done("render bdpt.pbrt --spp 1");
+    let place = Place::new().with("mlt.pbrt", &format!("Integrator \"mlt\"\n{SPHERE}"));
+    let ran = place.done("render mlt.pbrt --spp 1");
     assert!(
         ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, path;"),
         "{}",
@@ -150,11 +150,23 @@ fn a_picture_too_bright_to_see_anything_comes_with_the_exposure_that_helps() {
                   LightSource \"infinite\" \"rgb L\" [184.32 184.32 184.32]\nShape \"sphere\"\n";
     let place = Place::new().with("b.pbrt", bright);
     let said = place.done("render b.pbrt --spp 1").stderr;
-    assert!(said.contains("too bright to see anything: try --exposure -1"), "{said}");
+    assert!(said.contains("too bright to see anything\n  try --exposure -1"), "{said}");
     for words in ["--exposure -10", "-o b.exr", "--quiet", "--integrator cast --show depth"] {
         let said = place.done(&format!("render b.pbrt --spp 1 {words}")).stderr;
         assert!(!said.contains("try --exposure"), "{words}: {said}");
     }
     let said = place.done("render b.pbrt --spp 1 --exposure -30").stderr;
-    assert!(said.contains("too dark to see anything: try --exposure -1"), "{said}");
+    assert!(said.contains("too dark to see anything\n  try --exposure -1"), "{said}");
+}
+
+#[test]
+fn a_black_picture_says_why() {
+    let boxed = "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 12\nLookAt 0 1 -4  0 0 0  0 1 0\n\
+                 Camera \"perspective\"\nWorldBegin\nLightSource \"point\" \"string name\" \"lamp\"\n\
+                 Shape \"sphere\" \"string name\" \"shade\"\n";
+    let place = Place::new().with("b.pbrt", boxed);
+    let said = place.done("render b.pbrt --spp 1").stderr;
+    let why = "warning: the light \"lamp\" stands behind all surfaces that are seen\n  move it to the side";
+    assert!(said.contains(why), "{said}");
+    assert_eq!(place.done("render b.pbrt --spp 1 --quiet").stderr, "");
 }

@@ -22,13 +22,15 @@ pub enum Dim {
     Lobe,
     /// Whether a path goes on.
     Roulette,
+    /// The leading wavelength.
+    Lambda,
 }
 
 impl Dim {
     /// How many there are.
-    const COUNT: usize = 8;
+    const COUNT: usize = 9;
     /// How many sets [`Dim::in_set`] knows.
-    const SETS: usize = 4;
+    const SETS: usize = 5;
 
     /// Its number, made ready for hashing.
     #[inline]
@@ -48,7 +50,7 @@ impl Dim {
     /// The number of a set, made ready for hashing: that of no dimension.
     #[inline]
     pub(super) fn salt_of_set(set: usize) -> u64 {
-        const SALTS: [u64; Dim::SETS] = [salt(!0), salt(!1), salt(!2), salt(!3)];
+        const SALTS: [u64; Dim::SETS] = [salt(!0), salt(!1), salt(!2), salt(!3), salt(!4)];
         SALTS[set]
     }
 
@@ -62,6 +64,7 @@ impl Dim {
             (Self::Pixel, 0) => Some([0, 1]),
             (Self::Lens, 0) => Some([8, 9]),
             (Self::Time, 0) => Some([10, 6]),
+            (Self::Lambda, 0) => Some([5, 6]),
             (Self::Scatter | Self::Light, 1) => Some([2, 3]),
             (Self::Lobe | Self::LightChoice, 1) => Some([4, 7]),
             _ => None,
@@ -81,6 +84,7 @@ impl Dim {
             Self::Light => (2, [0, 1]),
             Self::LightChoice => (2, [2, 3]),
             Self::Roulette => (3, [0, 1]),
+            Self::Lambda => (4, [0, 1]),
         }
     }
 
@@ -92,7 +96,7 @@ impl Dim {
             (Self::Pixel, 0) => Some(0),
             (Self::Lens, 0) => Some(2),
             (Self::Time, 0) => Some(4),
-            (Self::Pixel | Self::Lens | Self::Time, _) | (_, 0) => None,
+            (Self::Pixel | Self::Lens | Self::Time | Self::Lambda, _) | (_, 0) => None,
             (hit, n) => Some(
                 7 * usize::from(n) - 2
                     + match hit {
@@ -117,6 +121,7 @@ impl Dim {
             Self::LightChoice => "light-choice",
             Self::Lobe => "lobe",
             Self::Roulette => "roulette",
+            Self::Lambda => "wavelength",
         }
     }
 }

@@ -81,6 +81,15 @@ impl Sampler {
         Self { key, forks: self.forks.saturating_add(u8::from(self.kind.counts_forks())), ..self }
     }
 
+    /// The sampler of another walk, whose numbers are multiplied with those of this one: of no set of points that the two
+    /// would share.
+    #[must_use]
+    #[inline]
+    pub fn apart(self, branch: u32) -> Self {
+        let forked = self.fork(branch);
+        Self { forks: forked.forks_unless(true), ..forked }
+    }
+
     /// The `i`-th of `n` samplers that share the work of this one: where several rays take the place of one, their
     /// numbers together are those of `n` times as many samples, and as well spread over the whole pixel.
     #[must_use]

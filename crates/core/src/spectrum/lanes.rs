@@ -16,8 +16,9 @@ impl Spectrum {
     pub(crate) const fn from_lanes(lanes: [f32; 4]) -> Self {
         Self(lanes)
     }
+    /// The lanes, for those who write them down: what they mean only the basis knows.
     #[inline]
-    pub(crate) const fn lanes(self) -> [f32; 4] {
+    pub const fn lanes(self) -> [f32; 4] {
         self.0
     }
     /// `v` in every lane.

@@ -106,11 +106,13 @@ fn lane(eta: f32, r: f32) -> (f32, f32) {
 
 /// Index and extinction of something that reflects this share of light at normal incidence: index 1 (pbrt-v4).
 pub fn conductor_of(reflectance: Color) -> (Color, Color) {
-    let k = |r: f32| {
-        let r = r.clamp(0.0, MOST);
-        2.0 * (r / (1.0 - r)).sqrt()
-    };
-    (Color::WHITE, reflectance.map(k))
+    (Color::WHITE, reflectance.map(extinction))
+}
+
+/// Extinction of something of index 1 that reflects the share `r` of light at normal incidence.
+pub fn extinction(r: f32) -> f32 {
+    let r = r.clamp(0.0, MOST);
+    2.0 * (r / (1.0 - r)).sqrt()
 }
 
 #[cfg(test)]

@@ -2,16 +2,28 @@
 //! other and is the only code that knows what a lane means.
 
 mod basis;
+mod cie;
 mod color;
+mod curve;
+mod illuminant;
+mod index;
 mod lanes;
+mod layers;
+mod light_color;
 mod metal;
 mod named;
 mod observer;
 mod sampled;
+mod upsample;
+mod wavelengths;
 
-pub use basis::Basis;
+pub use basis::{Basis, Carried, Lane};
 pub use color::{Color, luminance};
+pub use curve::Curve;
+pub use index::index;
 pub use lanes::Spectrum;
-pub use metal::{conductor, conductor_of, curve};
-pub use named::{Named, named, spectrum_names};
-pub use sampled::{HELIUM_D, Sampled, blackbody};
+pub use light_color::LightColor;
+pub use metal::{conductor, conductor_of, curve, extinction};
+pub use named::{Named, named, named_curve, named_light, spectrum_names};
+pub use sampled::{HELIUM_D, Sampled};
+pub use wavelengths::Wavelengths;

@@ -1,9 +1,16 @@
-//! The spectra that pbrt-v4 knows by name, reduced to what is used of them: a colour and one number.
+//! The spectra that pbrt-v4 knows by name, and some more indices ([`super::index()`]): a colour and one number for rays that
+//! carry red, green and blue, and a curve where one is known.
 //!
 //! Indices of refraction and absorption are given at 611.4, 549.1 and 464.2 nm, the dominant wavelengths of the Rec. 709
 //! primaries, and at 587.6 nm: metals as measured by Palik 1985 and Querry 1985, glasses as in their makers' catalogues.
 //! Illuminants are given by their CIE 1931 chromaticity (CIE 15:2004, tables T.3 and T.8; ACES: SMPTE ST 2065-1).
-use super::{Color, sampled::chromatic};
+use super::{
+    Color, Curve, HELIUM_D, LightColor,
+    illuminant::illuminant,
+    index::{index, index_curve, index_names},
+    metal::curve,
+    sampled::chromatic,
+};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +74,27 @@ pub fn named(name: &str) -> Option<Named> {
     if let Some((_, [r, g, b, number])) = INDICES.iter().find(|n| n.0 == name) {
         return Some(Named { color: Color::new(*r, *g, *b), number: *number });
     }
+    if index_names().any(|known| known == name) {
+        let [r, g, b, yellow] =
+            [611.4, 549.1, 464.2, HELIUM_D].map(|nm| index(name, nm).unwrap_or(1.0) as f32);
+        return Some(Named { color: Color::new(r, g, b), number: yellow });
+    }
     let (_, [x, y]) = ILLUMINANTS.iter().find(|n| n.0 == name)?;
     Some(Named { color: chromatic(*x, *y), number: 1.0 })
+}
+
+/// The index or extinction called `name` over wavelengths; `None` if it is none.
+pub fn named_curve(name: &str) -> Option<Curve> {
+    index_curve(name).or_else(|| Some(Curve::nearest(&curve(name)?)))
+}
+
+/// The light called `name`: in red, green and blue by its chromaticity, over wavelengths by its curve if that is known.
+pub fn named_light(name: &str) -> Option<LightColor> {
+    let color = named(name)?.color;
+    Some(match illuminant(name) {
+        Some(power) => LightColor::measured(&power).seen_as(color),
+        None => color.into(),
+    })
 }
 
 /// The few points of a curve of indices that are known by name: wavelengths (nm) and values in turn, rising.
@@ -79,7 +105,7 @@ pub(super) fn waves(name: &str) -> Option<[f32; 8]> {
 
 /// All names.
 pub fn spectrum_names() -> impl Iterator<Item = &'static str> {
-    INDICES.iter().map(|n| n.0).chain(ILLUMINANTS.iter().map(|n| n.0))
+    INDICES.iter().map(|n| n.0).chain(index_names()).chain(ILLUMINANTS.iter().map(|n| n.0))
 }
 
 #[cfg(test)]

@@ -1,28 +1,17 @@
-//! The CIE 1931 standard observer and the standard illuminant D65.
+//! The CIE 1931 standard observer as linear Rec. 709 sees with it, and the standard illuminant D65.
 //!
-//! The colour matching functions are the multi-lobe fit of Wyman, Sloan and Shirley 2013, "Simple Analytic Approximations
-//! to the CIE XYZ Color Matching Functions", JCGT 2(2), equation 4; D65 is tabulated at 10 nm (CIE 15:2004, table T.1).
+//! The matching functions of red, green and blue are those of the CIE, times the matrix of IEC 61966-2-1, and times three
+//! factors next to 1 for which D65 is exactly white: light of D65 at luminance 1 is (1, 1, 1).
+use super::cie::{D65, XYZ};
 
 /// First and last wavelength that integrals take, in nm.
 pub(super) const RANGE: (i32, i32) = (360, 830);
 
-/// `exp(-((x - mean) / sigma)^2 / 2)` with another sigma on either side of the mean.
-fn lobe(x: f64, mean: f64, below: f64, above: f64) -> f64 {
-    let t = (x - mean) / if x < mean { below } else { above };
-    libm::exp(-0.5 * t * t)
-}
-
-/// The colour matching functions x, y, z at a wavelength in nm.
-pub(super) fn xyz(nm: f64) -> [f64; 3] {
-    let x = 1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7)
-        - 0.065 * lobe(nm, 501.1, 20.4, 26.2);
-    let y = 0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1);
-    let z = 1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8);
-    [x, y, z]
-}
+/// Wavelengths of a table with a value each nanometre.
+pub(super) const COUNT: usize = (RANGE.1 - RANGE.0) as usize + 1;
 
 /// Linear Rec. 709 components of CIE XYZ (IEC 61966-2-1).
-pub(super) fn rec709([x, y, z]: [f64; 3]) -> [f64; 3] {
+pub(super) const fn rec709([x, y, z]: [f64; 3]) -> [f64; 3] {
     [
         3.240_969_941_904_521 * x - 1.537_383_177_570_093 * y - 0.498_610_760_293 * z,
         -0.969_243_636_280_87 * x + 1.875_967_501_507_72 * y + 0.041_555_057_407_175 * z,
@@ -30,18 +19,82 @@ pub(super) fn rec709([x, y, z]: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Relative power of D65 from 360 to 780 nm, every 10 nm.
-const D65: [f64; 43] = [
-    46.6383, 52.0891, 49.9755, 54.6482, 82.7549, 91.486, 93.4318, 86.6823, 104.865, 117.008, 117.812,
-    114.861, 115.923, 108.811, 109.354, 107.802, 104.79, 107.689, 104.405, 104.046, 100.0, 96.3342, 95.788,
-    88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213,
-    71.6091, 74.349, 61.604, 69.8856, 75.087, 63.5927, 46.4182, 66.8054, 63.3828,
-];
+/// What a radiance of 1 per nanometre adds to red, green and blue; `RANGE`, each nanometre. Of a light that is 1 at all
+/// wavelengths they give luminance 1.
+pub(super) const MATCHING: [[f32; 3]; COUNT] = matching();
 
-/// Relative power of D65 at a wavelength in nm; held beyond the table, where the eye sees next to nothing.
-pub(super) fn d65(nm: f64) -> f64 {
-    let at = ((nm - 360.0) / 10.0).clamp(0.0, (D65.len() - 1) as f64);
-    let below = (at as usize).min(D65.len() - 2);
-    let u = at - below as f64;
-    D65[below] * (1.0 - u) + D65[below + 1] * u
+/// D65 at luminance 1; `RANGE`, each nanometre.
+pub(super) const DAYLIGHT: [f32; COUNT] = daylight();
+
+/// D65 as it is tabulated, straight lines between.
+const fn tabulated(i: usize) -> f64 {
+    let below = if i / 10 < D65.len() - 1 { i / 10 } else { D65.len() - 2 };
+    let u = (i - 10 * below) as f64 / 10.0;
+    D65[below] as f64 * (1.0 - u) + D65[below + 1] as f64 * u
+}
+
+/// Sums of the matching function y, and of it under D65.
+const fn luminance() -> (f64, f64) {
+    let (mut sum, mut under, mut i) = (0.0, 0.0, 0);
+    while i < COUNT {
+        sum += XYZ[i][1] as f64;
+        under += XYZ[i][1] as f64 * tabulated(i);
+        i += 1;
+    }
+    (sum, under)
+}
+
+const fn daylight() -> [f32; COUNT] {
+    let (sum, under) = luminance();
+    let (mut table, mut i) = ([0.0; COUNT], 0);
+    while i < COUNT {
+        table[i] = (tabulated(i) * sum / under) as f32;
+        i += 1;
+    }
+    table
+}
+
+const fn matching() -> [[f32; 3]; COUNT] {
+    let daylight = daylight();
+    let (mut table, mut white, mut i) = ([[0.0; 3]; COUNT], [0.0; 3], 0);
+    while i < COUNT {
+        let [x, y, z] = XYZ[i];
+        table[i] = rec709([x as f64, y as f64, z as f64]);
+        let mut c = 0;
+        while c < 3 {
+            white[c] += table[i][c] * daylight[i] as f64;
+            c += 1;
+        }
+        i += 1;
+    }
+    let (mut scaled, mut i) = ([[0.0; 3]; COUNT], 0);
+    while i < COUNT {
+        let [r, g, b] = table[i];
+        scaled[i] = [(r / white[0]) as f32, (g / white[1]) as f32, (b / white[2]) as f32];
+        i += 1;
+    }
+    scaled
+}
+
+/// Where a wavelength in nm lies in a table of each nanometre: the entry before it and the way to the next, in `[0, 1]`.
+/// Wavelengths outside are those of its ends.
+#[inline]
+pub(super) fn place(nm: f32) -> (usize, f32) {
+    let at = (nm - RANGE.0 as f32).clamp(0.0, (COUNT - 1) as f32);
+    let below = (at as usize).min(COUNT - 2);
+    (below, at - below as f32)
+}
+
+/// The matching functions of red, green and blue at a wavelength in nm.
+#[inline]
+pub(super) fn rgb(nm: f32) -> [f32; 3] {
+    let (i, u) = place(nm);
+    std::array::from_fn(|c| MATCHING[i][c] * (1.0 - u) + MATCHING[i + 1][c] * u)
+}
+
+/// D65 at luminance 1, at a wavelength in nm.
+#[inline]
+pub(super) fn d65(nm: f32) -> f32 {
+    let (i, u) = place(nm);
+    DAYLIGHT[i] * (1.0 - u) + DAYLIGHT[i + 1] * u
 }

@@ -1,13 +1,13 @@
 //! Measured spectra as colours.
 //!
-//! Until rays carry wavelengths, a spectrum becomes linear Rec. 709 where it is read:
-//! a share of light (reflectance, transmittance) by what it does to D65, `sum(R D65 c) / sum(D65 c)` for each of the
-//! three matching functions `c` of Rec. 709, so that a share of 1 at all wavelengths is exactly white (1, 1, 1);
-//! a light by its own XYZ, scaled to luminance 1 (pbrt-v4 divides lights by their luminance too; `scale` and `power` say
-//! how strong they are). Components below 0, colours that Rec. 709 does not hold, become 0.
+//! Where rays carry red, green and blue, a spectrum becomes linear Rec. 709 where it is read:
+//! a share of light (reflectance, transmittance) by what it does to D65, `sum(R D65 c)` for each of the three matching
+//! functions `c` of Rec. 709, so that a share of 1 at all wavelengths is white (1, 1, 1);
+//! a light ([`super::LightColor`]) by its own sums, scaled to luminance 1 (pbrt-v4 divides lights by their luminance too;
+//! `scale` and `power` say how strong they are). Components below 0, colours that Rec. 709 does not hold, become 0.
 use super::{
     Color,
-    observer::{RANGE, d65, rec709, xyz},
+    observer::{DAYLIGHT, MATCHING, RANGE, rec709},
 };
 
 /// Values at wavelengths, straight lines between them, 0 outside (pbrt-v4's `PiecewiseLinearSpectrum`).
@@ -67,57 +67,28 @@ impl Sampled {
 
     /// The colour of a share of light, under D65.
     pub fn share(&self) -> Color {
-        share_of(|nm| self.inside(nm).unwrap_or(0.0))
+        share_of(|nm| self.or_zero(nm))
     }
 
-    /// The colour of a light, at luminance 1; black if it gives no visible light.
-    pub fn light(&self) -> Color {
-        light(|nm| self.inside(nm).unwrap_or(0.0))
+    /// The value at a wavelength in nm, 0 outside.
+    pub(super) fn or_zero(&self, nm: f64) -> f64 {
+        self.inside(nm).unwrap_or(0.0)
     }
-}
-
-/// The colour of a black body of `kelvin`, at luminance 1 (Planck's law); black at 0 K.
-pub fn blackbody(kelvin: f32) -> Color {
-    // h c / k, in nm K.
-    const C2: f64 = 1.438_776_877e7;
-    let t = f64::from(kelvin);
-    // Relative to 550 nm, so that neither cold nor hot bodies leave the range of numbers.
-    let planck = |nm: f64| {
-        let x = C2 / (nm * t);
-        (-5.0 * libm::log(nm / 550.0) - x + C2 / (550.0 * t)) - libm::log1p(-libm::exp(-x))
-    };
-    if kelvin > 0.0 { light(|nm| libm::exp(planck(nm))) } else { Color::BLACK }
 }
 
 /// The colour of a share of light, given by wavelength in nm, under D65.
 pub(super) fn share_of(value: impl Fn(f64) -> f64) -> Color {
-    let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
-    for nm in (RANGE.0..=RANGE.1).map(f64::from) {
-        let weights = rec709(xyz(nm)).map(|c| c * d65(nm));
-        let value = value(nm);
-        for i in 0..3 {
-            sum[i] += weights[i] * value;
-            white[i] += weights[i];
-        }
+    let mut sum = [0.0; 3];
+    for (i, (weights, light)) in MATCHING.iter().zip(DAYLIGHT).enumerate() {
+        let value = value(f64::from(RANGE.0) + i as f64) * f64::from(light);
+        sum.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += f64::from(*weight) * value);
     }
-    Color { rgb: std::array::from_fn(|i| (sum[i] / white[i]).max(0.0) as f32) }
+    Color { rgb: sum.map(|v| v.max(0.0) as f32) }
 }
 
 /// The colour of CIE chromaticity `(x, y)`, at luminance 1.
 pub(super) fn chromatic(x: f64, y: f64) -> Color {
     within([x / y, 1.0, (1.0 - x - y) / y])
-}
-
-/// The colour of a spectral power distribution, at luminance 1.
-fn light(power: impl Fn(f64) -> f64) -> Color {
-    let mut sum = [0.0; 3];
-    for nm in (RANGE.0..=RANGE.1).map(f64::from) {
-        let (cmf, power) = (xyz(nm), power(nm));
-        for i in 0..3 {
-            sum[i] += cmf[i] * power;
-        }
-    }
-    if sum[1] > 0.0 { within(sum.map(|v| v / sum[1])) } else { Color::BLACK }
 }
 
 fn within(xyz: [f64; 3]) -> Color {
@@ -149,23 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn black_bodies_have_the_chromaticity_of_the_planckian_locus() {
-        // Wyszecki and Stiles, table 1(3.11): x, y of 2856 K (illuminant A) and 6500 K.
-        for (kelvin, x, y) in [(2856.0, 0.4476, 0.4074), (6500.0, 0.3135, 0.3237)] {
-            near(blackbody(kelvin), chromatic(x, y).rgb, 0.03);
-            assert!((blackbody(kelvin).luminance() - 1.0).abs() < 1e-3);
-        }
-        for kelvin in [1e-3, 10.0, 1e6, 1e30] {
-            assert!(blackbody(kelvin).rgb.iter().all(|v| v.is_finite() && *v >= 0.0), "{kelvin}");
-        }
-        assert_eq!(blackbody(0.0), Color::BLACK);
-    }
-
-    #[test]
     fn daylight_is_white() {
-        let table: Vec<f32> =
-            (36..=78).flat_map(|l| [l as f32 * 10.0, d65(f64::from(l) * 10.0) as f32]).collect();
-        near(Sampled::new(&table).expect("a spectrum").light(), [1.0; 3], 0.02);
         near(chromatic(0.312_727, 0.329_023), [1.0; 3], 1e-3);
     }
 

@@ -92,7 +92,7 @@ impl Factors {
         let sharp = rays(&[RayKind::Eye, RayKind::Reflection, RayKind::Refraction, RayKind::Passing]);
         let eye = rays(&[RayKind::Eye]);
         let all = counters.all_rays() as f64;
-        let seen = all - rays(&[RayKind::Shadow]);
+        let seen = all - rays(&[RayKind::Shadow, RayKind::Connection, RayKind::Photon]);
         Self {
             height: f64::from(window.y1 - window.y0),
             width: f64::from(window.x1 - window.x0),

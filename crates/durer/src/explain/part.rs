@@ -4,7 +4,7 @@ use serde::Serialize;
 use crate::{
     Prepared,
     probe::{RayKind, RayTree, StopReason, TreeNode},
-    spectrum::Spectrum,
+    spectrum::{Basis, Spectrum},
 };
 
 use super::words::{luminance, rgb};
@@ -108,10 +108,6 @@ impl Parts {
     }
 }
 
-fn times(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] * b[i])
-}
-
 /// The name of the light of a shadow ray.
 pub(super) fn light_name<'a>(prepared: &'a Prepared, node: &TreeNode) -> Option<&'a str> {
     let index = node.light?.light as usize;
@@ -119,12 +115,11 @@ pub(super) fn light_name<'a>(prepared: &'a Prepared, node: &TreeNode) -> Option<
 }
 
 /// What a ray brings from no other ray, as it is shared in the pixel.
-fn own(prepared: &Prepared, node: &TreeNode, is_cast: bool, parts: &mut Parts) {
-    let share = rgb(node.throughput);
-    let mut rest = rgb(node.local);
+fn own(prepared: &Prepared, (basis, node): (&Basis, &TreeNode), is_cast: bool, parts: &mut Parts) {
+    let mut rest = rgb(basis, node.throughput * node.local);
     let mut add = |kind, name: Option<&str>, s: Spectrum| {
-        let v = rgb(s);
-        parts.add(kind, name, times(share, v));
+        let v = rgb(basis, node.throughput * s);
+        parts.add(kind, name, v);
         (0..3).for_each(|i| rest[i] -= v[i]);
     };
     match (&node.hit, &node.shading) {
@@ -141,7 +136,7 @@ fn own(prepared: &Prepared, node: &TreeNode, is_cast: bool, parts: &mut Parts) {
     if is_cast && node.hit.is_some() {
         let is_albedo = prepared.rules.get("show").and_then(|v| v.as_str()) == Some("albedo");
         let kind = if is_albedo { PartKind::Albedo } else { PartKind::Shading };
-        parts.add(kind, None, times(share, rest));
+        parts.add(kind, None, rest);
     }
 }
 
@@ -151,7 +146,7 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
     let children = tree.children();
     let mut open: Vec<u32> = if tree.nodes.is_empty() { Vec::new() } else { vec![0] };
     while let Some(index) = open.pop() {
-        own(prepared, &tree.nodes[index as usize], is_cast(prepared), &mut parts);
+        own(prepared, (&tree.basis, &tree.nodes[index as usize]), is_cast(prepared), &mut parts);
         for &number in &children[index as usize] {
             let child = &tree.nodes[number as usize];
             let kind = match child.kind {
@@ -166,8 +161,11 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
                 RayKind::GlossyReflection if is_matte(child) => PartKind::Bounce,
                 RayKind::GlossyReflection => PartKind::Gloss,
                 RayKind::GlossyRefraction => PartKind::Translucency,
+                // What particles bring came by another surface.
+                RayKind::Connection => PartKind::Bounce,
+                RayKind::Photon => continue,
             };
-            parts.add(kind, light_name(prepared, child), times(rgb(child.throughput), rgb(child.result)));
+            parts.add(kind, light_name(prepared, child), rgb(&tree.basis, child.throughput * child.result));
         }
     }
     parts
@@ -177,7 +175,7 @@ pub(super) fn by_way(prepared: &Prepared, tree: &RayTree) -> Parts {
 pub(super) fn by_source(prepared: &Prepared, tree: &RayTree) -> Parts {
     let mut parts = Parts::default();
     for node in &tree.nodes {
-        own(prepared, node, is_cast(prepared), &mut parts);
+        own(prepared, (&tree.basis, node), is_cast(prepared), &mut parts);
     }
     parts
 }

@@ -8,7 +8,7 @@ use super::{
     Sample,
     explanation::Spread,
     part::light_name,
-    words::{luminance, rgb},
+    words::{luminance, tint},
 };
 
 /// Whether a ray was given up that would have brought something, by a bound that somebody set.
@@ -22,7 +22,7 @@ pub(super) fn is_cut(node: &TreeNode) -> bool {
 /// Shares in the pixel of all rays that were cut off.
 pub(super) fn cut_share(tree: &RayTree) -> [f64; 3] {
     tree.nodes.iter().filter(|n| is_cut(n)).fold([0.0; 3], |mut sum, node| {
-        let lost = rgb(node.lost);
+        let lost = tint(&tree.basis, node.lost);
         (0..3).for_each(|i| sum[i] += lost[i]);
         sum
     })

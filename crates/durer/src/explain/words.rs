@@ -30,14 +30,28 @@ pub(super) fn color(v: [f64; 3]) -> String {
     if r == g && g == b { r } else { format!("({r}, {g}, {b})") }
 }
 
-/// The same of what travels along rays.
-pub(super) fn light(s: Spectrum) -> String {
-    color(rgb(s))
+/// The same of what rays carry, lane by lane: red, green and blue, or four wavelengths.
+pub(super) fn lanes(basis: &Basis, s: Spectrum) -> String {
+    each(basis, s.lanes().map(f64::from))
 }
 
-/// Linear RGB in double precision.
-pub(super) fn rgb(s: Spectrum) -> [f64; 3] {
-    Basis::Rgb.to_rgb(s).map(f64::from)
+/// The same of numbers that were computed of lanes.
+pub(super) fn each(basis: &Basis, [a, b, c, d]: [f64; 4]) -> String {
+    match basis {
+        Basis::Rgb => color([a, b, c]),
+        Basis::Spectral(_) if [b, c, d].iter().all(|v| number(*v) == number(a)) => number(a),
+        Basis::Spectral(_) => format!("({})", [a, b, c, d].map(number).join(", ")),
+    }
+}
+
+/// The colour of light in double precision: linear RGB.
+pub(super) fn rgb(basis: &Basis, s: Spectrum) -> [f64; 3] {
+    basis.to_rgb(s).map(f64::from)
+}
+
+/// The colour that a weight gives to white light.
+pub(super) fn tint(basis: &Basis, s: Spectrum) -> [f64; 3] {
+    basis.under_white(s).map(f64::from)
 }
 
 /// `12 %`; a decimal where there are few.

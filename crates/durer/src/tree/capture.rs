@@ -11,7 +11,7 @@ use crate::{
 };
 
 use super::{
-    document::{Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
+    document::{Lanes, Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
     drawn::drawn,
     ghost::GhostScene,
     material,
@@ -118,11 +118,15 @@ impl Subject<'_> {
         let (view, settings) = (&self.prepared.scene.view, &self.prepared.settings);
         let data = match self.prepared.integrator.output() {
             Output::Data(show) => Some(show.word().to_owned()),
-            Output::Radiance => None,
+            Output::Radiance | Output::Survey(_) => None,
         };
         let is_adaptive = settings.antialias != Antialias::Supersample;
-        let nodes: Vec<Node> =
-            recorded.nodes.iter().enumerate().map(|(id, n)| node(self.prepared, id, n)).collect();
+        let nodes: Vec<Node> = recorded
+            .nodes
+            .iter()
+            .enumerate()
+            .map(|(id, n)| node(self.prepared, &recorded.basis, id, n))
+            .collect();
         let eye = recorded.eye.as_ref();
         let mut tree = Tree {
             version: VERSION,
@@ -142,9 +146,11 @@ impl Subject<'_> {
             film: eye.map(|eye| eye.film.map(Number)).unwrap_or_default(),
             lens: eye.and_then(|eye| eye.lens).map(|l| l.map(Number)),
             time: eye.map(|eye| Number(eye.time)).unwrap_or_default(),
+            wavelengths: recorded.basis.wavelengths().map(|w| w.nm().map(Number)),
+            lane_weights: recorded.basis.wavelengths().map(|w| w.weights().map(rgb)),
             rules: self.prepared.rules.clone(),
             rgb: rgb(as_film(value)),
-            killed: of(recorded.killed()),
+            killed: of_weight(&recorded.basis, recorded.killed()),
             max_radiance: Number(recorded.max_radiance()),
             bad: recorded.bad,
             data,
@@ -158,10 +164,10 @@ impl Subject<'_> {
     /// What rays that were given up could have brought.
     fn bound(&self, recorded: &RayTree, tree: &mut Tree) {
         match recorded.is_cut().then(|| self.prepared.brightest()) {
-            None => tree.missing = Some(of(recorded.lost_bound(0.0))),
+            None => tree.missing = Some(of_light(&recorded.basis, recorded.lost_bound(0.0))),
             Some(Ok(brightest)) => {
                 tree.brightest = Some(Number(brightest));
-                tree.missing = Some(of(recorded.lost_bound(brightest)));
+                tree.missing = Some(of_light(&recorded.basis, recorded.lost_bound(brightest)));
             }
             Some(Err(why)) => tree.no_bound = Some(why.to_owned()),
         }
@@ -195,7 +201,7 @@ fn as_film(value: [f32; 3]) -> [f32; 3] {
     pixel.mean()
 }
 
-fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
+fn node(prepared: &Prepared, basis: &Basis, id: usize, node: &TreeNode) -> Node {
     let scene = &prepared.scene;
     let place = |p: Point3| world(&scene.view, p);
     let shading = node.shading.as_ref();
@@ -208,31 +214,34 @@ fn node(prepared: &Prepared, id: usize, node: &TreeNode) -> Node {
         direction: node.d.normalize().to_array().map(Number),
         t: node.length().map(Number),
         time: Number(node.path.ray.time),
-        weight: of(node.weight),
-        throughput: of(node.throughput),
-        local: of(node.local),
-        emission: shading.map(|s| of(s.emission)),
-        ambient: shading.map(|s| of(s.ambient)),
-        blurred_sky: shading.map(|s| of(s.blurred_sky)),
-        arrived: shading.map_or(rgb([1.0; 3]), |s| of(s.arrived)),
-        contribution: of(node.contribution()),
-        result: of(node.result),
+        weight: of_weight(basis, node.weight),
+        throughput: of_weight(basis, node.throughput),
+        lanes: lanes(basis, node),
+        local: of_light(basis, node.local),
+        emission: shading.map(|s| of_light(basis, s.emission)),
+        ambient: shading.map(|s| of_light(basis, s.ambient)),
+        blurred_sky: shading.map(|s| of_light(basis, s.blurred_sky)),
+        arrived: shading.map_or(rgb([1.0; 3]), |s| of_weight(basis, s.arrived)),
+        contribution: of_light(basis, node.contribution()),
+        result: of_light(basis, node.result),
         stop: node.stop.map(|s| s.word().to_owned()),
         limit: node.limit.map(|l| Limit { value: Number(l.value), threshold: Number(l.threshold) }),
-        lost: of(node.lost),
+        lost: of_weight(basis, node.lost),
         light: node.light.as_ref().map(|l| Light {
             index: l.light,
             name: scene.light_names.get(l.light as usize).cloned(),
             point: l.point.map(place),
             visible: l.visible,
-            passed: of(l.passed),
-            unoccluded: of(l.unoccluded),
+            passed: of_weight(basis, l.passed),
+            unoccluded: of_light(basis, l.unoccluded),
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
-        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, m)),
+        media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, basis, m)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
-        lobes: shading.map(|s| s.lobes.iter().map(material::lobe).collect()).unwrap_or_default(),
-        drawn: node.chosen.as_ref().map(drawn),
+        lobes: shading
+            .map(|s| s.lobes.iter().map(|l| material::lobe(basis, l)).collect())
+            .unwrap_or_default(),
+        drawn: node.chosen.as_ref().map(|chosen| drawn(basis, chosen)),
         random: random(node),
         sampler: Some(node.path.sampler.to_hex()),
         textures: shading.map(|s| material::lookups(scene, &s.textures)).unwrap_or_default(),
@@ -289,6 +298,24 @@ fn world(view: &View, p: Point3) -> Place {
     std::array::from_fn(|i| Metres::short(exact[i], rounded[i]))
 }
 
-pub(super) fn of(s: Spectrum) -> Rgb {
-    rgb(Basis::Rgb.to_rgb(s))
+/// The colour of light.
+fn of_light(basis: &Basis, s: Spectrum) -> Rgb {
+    rgb(basis.to_rgb(s))
+}
+
+/// The colour that a weight gives to white light.
+pub(super) fn of_weight(basis: &Basis, s: Spectrum) -> Rgb {
+    rgb(basis.under_white(s))
+}
+
+/// What a ray carries, by wavelength.
+fn lanes(basis: &Basis, node: &TreeNode) -> Option<Lanes> {
+    basis.wavelengths()?;
+    let of = |s: Spectrum| s.lanes().map(Number);
+    Some(Lanes {
+        weight: of(node.weight),
+        throughput: of(node.throughput),
+        local: of(node.local),
+        result: of(node.result),
+    })
 }

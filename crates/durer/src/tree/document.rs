@@ -53,6 +53,10 @@ pub struct Tree {
     pub lens: Option<[Number; 2]>,
     /// The moment of the sample, in seconds.
     pub time: Number,
+    /// The wavelengths that rays carry, in nm; null if they carry red, green and blue.
+    pub wavelengths: Option<[Number; 4]>,
+    /// What a lane of 1 counts in `rgb`, for each of the wavelengths; null if there are none.
+    pub lane_weights: Option<[Rgb; 4]>,
     /// What the integrator was told: its parameters with their values.
     pub rules: BTreeMap<String, serde_json::Value>,
     /// The value of the sample: linear RGB, or the three numbers of a data picture.
@@ -132,6 +136,10 @@ pub struct Node {
     pub weight: Rgb,
     /// Product of the weights from the eye to here: the ray's share in the pixel.
     pub throughput: Rgb,
+    /// `weight`, `throughput`, `local` and `result` at the wavelengths of the tree; null if rays carry red, green and blue.
+    /// The keys of these names are then the colours that weights give to white light, and those of the light: rounded
+    /// views, of which only the light's sum.
+    pub lanes: Option<Lanes>,
     /// Radiance from no other ray.
     pub local: Rgb,
     /// Of `local`, what the surface sends out by itself.
@@ -184,6 +192,21 @@ pub struct Node {
     /// In the page only: what of the rays below it there was no room for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_out: Option<LeftOut>,
+}
+
+/// What a ray carries, by wavelength.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(default)]
+pub struct Lanes {
+    /// What the parent multiplies `result` with.
+    pub weight: [Number; 4],
+    /// The ray's share in the pixel.
+    pub throughput: [Number; 4],
+    /// Radiance from no other ray.
+    pub local: [Number; 4],
+    /// The ray's radiance.
+    pub result: [Number; 4],
 }
 
 /// What a ray was compared with when it was given up.
@@ -369,15 +392,34 @@ impl Tree {
     /// The sample's value, folded from the leaves: `local` plus weight times result of each child, in order, in single
     /// precision; and times `gain`. The bits of `rgb` for radiance.
     pub fn fold(&self) -> [f32; 3] {
-        let children = self.children();
-        let mut sums: Vec<[f32; 3]> = self.nodes.iter().map(|n| n.local.map(|v| v.0)).collect();
-        for parent in (0..self.nodes.len()).rev() {
-            for &child in &children[parent] {
-                let (weight, result) = (self.nodes[child].weight, sums[child]);
-                (0..3).for_each(|i| sums[parent][i] += weight[i].0 * result[i]);
+        let gain = self.gain.map_or(1.0, |gain| gain.0);
+        self.radiance().map(|v| v * gain)
+    }
+    fn radiance(&self) -> [f32; 3] {
+        match &self.lane_weights {
+            None => self.folded(|node| (node.weight.map(|v| v.0), node.local.map(|v| v.0))),
+            Some(weights) => {
+                let lanes = self.folded(|node| {
+                    let lanes = node.lanes.unwrap_or_default();
+                    (lanes.weight.map(|v| v.0), lanes.local.map(|v| v.0))
+                });
+                let mut rgb = [0.0; 3];
+                for (lane, weights) in lanes.into_iter().zip(weights) {
+                    rgb.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += lane * weight.0);
+                }
+                rgb
             }
         }
-        let gain = self.gain.map_or(1.0, |gain| gain.0);
-        sums.first().copied().unwrap_or_default().map(|v| v * gain)
+    }
+    fn folded<const N: usize>(&self, of: impl Fn(&Node) -> ([f32; N], [f32; N])) -> [f32; N] {
+        let children = self.children();
+        let mut sums: Vec<[f32; N]> = self.nodes.iter().map(|n| of(n).1).collect();
+        for parent in (0..self.nodes.len()).rev() {
+            for &child in &children[parent] {
+                let (weight, result) = (of(&self.nodes[child]).0, sums[child]);
+                (0..N).for_each(|i| sums[parent][i] += weight[i] * result[i]);
+            }
+        }
+        sums.first().copied().unwrap_or([0.0; N])
     }
 }

@@ -2,17 +2,21 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    capture::of,
+    capture::of_weight,
     number::{Number, Rgb},
 };
-use crate::probe::{Choice, ChosenBy};
+use crate::{
+    probe::{Choice, ChosenBy},
+    spectrum::Basis,
+};
 
 /// How a ray was chosen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Drawn {
-    /// `light` where a light was sampled, `sharp` where there is but one direction, else the lobe's name.
+    /// `light` where a light was sampled, `sharp` where there is but one direction, `joined` where it leads to a walk from the
+    /// other end, else the lobe's name.
     pub from: String,
     /// The lobe, if it was one that chose.
     pub lobe: Option<String>,
@@ -34,10 +38,11 @@ pub struct Drawn {
     pub cos: Option<Number>,
 }
 
-pub(super) fn drawn(choice: &Choice) -> Drawn {
+pub(super) fn drawn(basis: &Basis, choice: &Choice) -> Drawn {
     let from = match choice.by {
         ChosenBy::Light => "light",
         ChosenBy::Sharp => "sharp",
+        ChosenBy::Joined => "joined",
         ChosenBy::Lobe => choice.lobe.unwrap_or("lobe"),
     };
     Drawn {
@@ -49,7 +54,7 @@ pub(super) fn drawn(choice: &Choice) -> Drawn {
         pdf: choice.pdf.map(Number),
         other_pdf: choice.other_pdf.map(Number),
         mis: choice.mis.map(Number),
-        f: choice.f.map(of),
+        f: choice.f.map(|f| of_weight(basis, f)),
         cos: choice.cos.map(Number),
     }
 }

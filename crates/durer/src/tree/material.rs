@@ -6,20 +6,21 @@ use crate::{
         texture::{Looked, TextureLookup},
     },
     probe::TreeMedia,
+    spectrum::Basis,
 };
 
 use super::{
-    capture::of,
+    capture::of_weight,
     document::{Body, Fresnel, Lobe, Lookup, Media},
     number::Number,
 };
 
-pub(super) fn media(scene: &Scene, media: &TreeMedia) -> Media {
+pub(super) fn media(scene: &Scene, basis: &Basis, media: &TreeMedia) -> Media {
     let body = |id| {
         let medium = scene.media.get(id);
         let fills = |o: &&crate::Object| scene.media.of_material(o.material) == Some(id);
         let object = scene.objects.iter().find(fills).map(|o| o.name.clone());
-        Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta) }
+        Body { object: object.unwrap_or_default(), priority: medium.priority, ior: Number(medium.eta(basis)) }
     };
     Media {
         before: media.before.iter().map(body).collect(),
@@ -40,11 +41,11 @@ pub(super) fn fresnel(view: &FresnelView) -> Fresnel {
     }
 }
 
-pub(super) fn lobe(view: &LobeView) -> Lobe {
+pub(super) fn lobe(basis: &Basis, view: &LobeView) -> Lobe {
     Lobe {
         name: view.name.to_owned(),
-        reflectance: of(view.reflectance),
-        transmittance: of(view.transmittance),
+        reflectance: of_weight(basis, view.reflectance),
+        transmittance: of_weight(basis, view.transmittance),
         exponent: view.exponent.map(Number),
         alpha: view.alpha.map(Number),
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     Output, Prepared, Show,
-    film::{Developed, ToneMap, develop, develop_data},
+    film::{Developed, ToneMap, develop, develop_data, develop_survey},
     image::{Packing, encode_png},
     integrator::Cast,
 };
@@ -38,6 +38,7 @@ impl Thumbnail {
         let (width, height, values) = job.preview(LARGEST);
         let Developed { width, height, rgb8 } = match job.integrator.output() {
             Output::Data(show) => develop_data(show, width, height, &values).picture,
+            Output::Survey(survey) => develop_survey(survey, width, height, &values).0,
             Output::Radiance => {
                 let finite = |v: [f32; 3]| if v.iter().all(|v| v.is_finite()) { v } else { [0.0; 3] };
                 let rgb: Vec<[f32; 3]> = values.iter().map(|v| finite(v.unwrap_or_default())).collect();

@@ -1,8 +1,9 @@
 //! The pbrt-v4 scene language, written: whatever its reader made of a file comes back from what is written here.
 //!
 //! Numbers are the shortest decimals that read back as they were. Cameras are written by the inverse of their placement,
-//! as the language has it, so that they may come back off in the last bit of a double. Nodes that shapes share are
-//! written once, as objects with instances. Paths stay relative to the folder of the original: the file belongs there.
+//! as the language has it, or by the placement itself where the inverse of the inverse differs in the last bit. Nodes that shapes share are
+//! written once, as objects with instances. Files that lie within the original go into a folder beside the text, as they
+//! are; paths of others stay relative to the folder of the original, or go the same way.
 mod mesh;
 mod place;
 mod value;
@@ -16,6 +17,7 @@ use std::{
 use durer_core::{Id, sampling::SamplerKind};
 use durer_scene::{CameraDesc, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureValue};
 
+use super::{Beside, Files, beside::Gathered};
 use crate::FileAssets;
 use place::{Frame, Times};
 use value::{params, quoted};
@@ -33,49 +35,71 @@ pub struct Film {
     pub sampler: SamplerKind,
 }
 
+/// What is written, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan<'a> {
+    /// The picture.
+    pub film: Film,
+    /// The index of the camera that comes first.
+    pub camera: usize,
+    /// Which files go along.
+    pub files: Files,
+    /// The folder beside the text where these lie.
+    pub folder: &'a str,
+    /// Comments at the top.
+    pub remarks: &'a [String],
+}
+
+/// A scene in the language, and what lies beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The text.
+    pub text: String,
+    /// Files in [`Plan::folder`].
+    pub beside: Vec<Beside>,
+}
+
 /// Most complaints that are listed.
 const MOST_COMPLAINTS: usize = 20;
 
 /// A file in the making, and what cannot be in it.
 struct Writer<'a> {
     desc: &'a SceneDesc,
-    assets: &'a FileAssets,
+    gathered: Gathered<'a>,
     text: String,
     times: Times,
     refused: BTreeSet<String>,
     /// The name of each material.
     materials: Vec<String>,
+    /// What was written of each mesh.
+    meshes: BTreeMap<usize, Result<Node, String>>,
 }
 
-/// The text of a scene; its first camera is the one called `camera` by its index. `remarks` become comments.
+/// A scene as the plan says.
 ///
 /// # Errors
 /// What of the scene the language has no words for, each in a sentence.
-pub fn text(
-    desc: &SceneDesc,
-    assets: &FileAssets,
-    (film, camera): (Film, usize),
-    remarks: &[String],
-) -> Result<String, Vec<String>> {
+pub fn write(desc: &SceneDesc, assets: &FileAssets, plan: Plan<'_>) -> Result<Written, Vec<String>> {
     let mut writer = Writer {
         desc,
-        assets,
+        gathered: Gathered::new(assets, plan.files, plan.folder),
         text: String::new(),
         times: Times::of(desc),
         refused: BTreeSet::new(),
         materials: names(&desc.materials),
+        meshes: BTreeMap::new(),
     };
-    for line in remarks.iter().flat_map(|remark| remark.lines()) {
+    for line in plan.remarks.iter().flat_map(|remark| remark.lines()) {
         writer.line(&format!("# {line}"));
     }
-    writer.options(film, camera);
+    writer.options(plan.film, plan.camera);
     writer.line("\nWorldBegin");
     writer.textures();
     writer.materials();
     writer.lights();
     writer.shapes();
     if writer.refused.is_empty() {
-        Ok(writer.text)
+        Ok(Written { text: writer.text, beside: writer.gathered.list })
     } else {
         Err(writer.refused.into_iter().take(MOST_COMPLAINTS).collect())
     }
@@ -120,7 +144,7 @@ impl Writer<'_> {
     }
 
     fn params(&mut self, node: &Node, owner: &str) {
-        for complaint in params(node, self.assets, &mut self.text) {
+        for complaint in params(node, &mut self.gathered, &mut self.text) {
             self.refuse(format!("{owner}: {complaint}"));
         }
         self.text.push('\n');
@@ -168,7 +192,7 @@ impl Writer<'_> {
 
     fn camera(&mut self, camera: &CameraDesc) {
         let owner = format!("camera \"{}\"", camera.name);
-        self.times.frame(&camera.world_from_camera, |m| m.inverse()).write(&mut self.text);
+        self.times.frame(&camera.world_from_camera).write_inverse(&mut self.text);
         self.node("Camera", &camera.node, (&camera.name, &owner));
         self.line("Identity");
     }
@@ -205,24 +229,27 @@ impl Writer<'_> {
         for light in &desc.lights {
             let owner = format!("light \"{}\"", light.name);
             self.line("\nAttributeBegin");
-            self.times.frame(&light.world_from_light, |m| *m).write(&mut self.text);
+            self.times.frame(&light.world_from_light).write(&mut self.text);
             self.node("LightSource", &light.node, (&light.name, &owner));
             self.line("AttributeEnd");
         }
     }
 
-    /// Shapes in their order: those that stand alone, then from the first that shares what it is built from on all as
+    /// Shapes in their order: those that stand alone, then from the first that is placed several times on all as
     /// instances, which the language unfolds after the others.
     fn shapes(&mut self) {
         let desc = self.desc;
-        let mut uses: HashMap<Source, u32> = HashMap::new();
-        desc.shapes.iter().for_each(|shape| *uses.entry(Source::of(shape)).or_default() += 1);
-        let is_shared = |shape: &ShapeDesc| uses.get(&Source::of(shape)).is_some_and(|&uses| uses > 1);
+        let mut uses: BTreeMap<Object, u32> = BTreeMap::new();
+        desc.shapes.iter().for_each(|shape| *uses.entry(Object::of(shape)).or_default() += 1);
+        let mut kinds: HashMap<Source, u32> = HashMap::new();
+        uses.keys().for_each(|object| *kinds.entry(object.0.0).or_default() += 1);
+        self.put_meshes_aside(&kinds);
+        let is_shared = |shape: &ShapeDesc| uses.get(&Object::of(shape)).is_some_and(|&uses| uses > 1);
         let first = desc.shapes.iter().position(is_shared).unwrap_or(desc.shapes.len());
         let (alone, instances) = desc.shapes.split_at(first);
         for shape in alone {
             self.line("\nAttributeBegin");
-            self.times.frame(&shape.world_from_object, |m| *m).write(&mut self.text);
+            self.times.frame(&shape.world_from_object).write(&mut self.text);
             self.shape(shape);
             self.line("AttributeEnd");
         }
@@ -241,13 +268,21 @@ impl Writer<'_> {
                 }
             };
             self.line("\nAttributeBegin");
-            self.times.frame(&shape.world_from_object, |m| *m).write(&mut self.text);
+            self.times.frame(&shape.world_from_object).write(&mut self.text);
             self.line(&format!("ObjectInstance \"object {object}\"\nAttributeEnd"));
         }
     }
 
+    /// Writes meshes into files where that is better, and makes shapes of the others.
+    fn put_meshes_aside(&mut self, kinds: &HashMap<Source, u32>) {
+        for (number, mesh) in self.desc.meshes.iter().enumerate() {
+            let Some(&objects) = kinds.get(&Source::Mesh(number as u32)) else { continue };
+            let file = mesh::file(mesh, objects > 1, (&mut self.gathered, number));
+            self.meshes.insert(number, file.map_or_else(|| mesh::node(mesh), Ok));
+        }
+    }
+
     fn shape(&mut self, shape: &ShapeDesc) {
-        let desc = self.desc;
         let owner = owner(shape);
         if shape.reverse_orientation {
             self.line("ReverseOrientation");
@@ -260,7 +295,7 @@ impl Writer<'_> {
         }
         match &shape.source {
             ShapeSource::Node(node) => self.node("Shape", node, (&shape.name, &owner)),
-            ShapeSource::Mesh(id) => match desc.meshes.get(id.index()).map(|mesh| mesh::node(mesh)) {
+            ShapeSource::Mesh(id) => match self.meshes.get(&id.index()).cloned() {
                 Some(Ok(node)) => self.node("Shape", &node, (&shape.name, &owner)),
                 Some(Err(why)) => self.refuse(format!("{owner}: {why}")),
                 None => {}

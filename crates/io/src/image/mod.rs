@@ -15,7 +15,7 @@ use durer_scene::{AssetError, Image, Limits};
 
 pub use exr::{ExrPicture, ExrValue, NamedChannel, encode_exr, read_exr_channels, write_exr};
 pub use output::{PictureFormat, WRITERS, WriteError, Writer, replace_file, writer_for};
-pub use png::{Packing, encode_png, write_png};
+pub use png::{Packing, encode_png, encode_png_rgba, write_png};
 
 use source::Source;
 
@@ -54,7 +54,7 @@ const SIGNATURES: &[Signature] = &[
     known(b"Pf ", "portable float map (PFM)", pfm::decode),
     known(b"Pf\r\n", "portable float map (PFM)", pfm::decode),
     foreign(b"GIF8", 0, "GIF"),
-    foreign(b"WEBP", 8, "WebP"),
+    Signature { bytes: b"WEBP", offset: 8, name: "WebP", decode: Some(raster::decode_webp) },
     foreign(b"\xabKTX 20\xbb\r\n\x1a\n", 0, "KTX 2"),
     foreign(b"\xabKTX 11\xbb\r\n\x1a\n", 0, "KTX"),
     foreign(b"DDS ", 0, "DirectDraw surface (DDS)"),
@@ -71,6 +71,7 @@ const SUFFIXES: &[(&str, &str)] = &[
     (".exr", "OpenEXR"),
     (".hdr", "Radiance HDR"),
     (".bmp", "BMP"),
+    (".webp", "WebP"),
     (".pfm", "PFM"),
 ];
 
@@ -80,14 +81,22 @@ pub(crate) fn format_name(head: &[u8]) -> Option<&'static str> {
     SIGNATURES.iter().find(starts).map(|s| s.name)
 }
 
-/// Decodes a PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
+/// What the names of image files end with that hold such bytes.
+pub(crate) fn suffix_of(bytes: &[u8]) -> Option<&'static str> {
+    let Some(name) = format_name(bytes) else {
+        return raster::is_tga_by_footer(bytes).then_some(".tga");
+    };
+    SUFFIXES.iter().find(|(_, format)| name.contains(format)).map(|(suffix, _)| *suffix)
+}
+
+/// Decodes a PNG, JPEG, WebP, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors
 /// If the format is another one, the data is damaged, or the image is larger than `limits` allow.
 pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetError> {
     let source = Source { bytes, name, limits };
     let starts = |s: &&Signature| bytes.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
-    const READ: &str = "durer reads PNG, JPEG, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
+    const READ: &str = "durer reads PNG, JPEG, WebP, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
     match SIGNATURES.iter().find(starts) {
         Some(Signature { decode: Some(decode), .. }) => decode(&source),
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),

@@ -113,17 +113,35 @@ pub fn encode_png(
     rgb8: &[u8],
     packing: Packing,
 ) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, width, height);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(match packing {
+    let compression = match packing {
         Packing::Small => Compression::Balanced,
         Packing::Quick => Compression::Fastest,
-    });
+    };
+    encode((width, height), rgb8, ColorType::Rgb, compression)
+}
+
+/// The same with alpha, for textures.
+///
+/// # Errors
+/// If `rgba8` does not hold `4 * width * height` bytes.
+pub fn encode_png_rgba(width: u32, height: u32, rgba8: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    encode((width, height), rgba8, ColorType::Rgba, Compression::Balanced)
+}
+
+fn encode(
+    (width, height): (u32, u32),
+    pixels: &[u8],
+    color: ColorType,
+    compression: Compression,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(compression);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(rgb8)?;
+    writer.write_image_data(pixels)?;
     writer.finish()?;
     Ok(bytes)
 }

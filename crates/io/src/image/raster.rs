@@ -1,10 +1,10 @@
-//! Windows bitmaps (1 to 32 bits, palettes, run lengths) and Targa files (grey, palettes, true colour, run lengths).
+//! WebP files, Windows bitmaps (1 to 32 bits, palettes, run lengths) and Targa files (grey, palettes, true colour, run lengths).
 use std::io::Cursor;
 
 use durer_scene::{AssetError, Image, ImageData};
 use image::{
     ColorType, ImageDecoder,
-    codecs::{bmp::BmpDecoder, tga::TgaDecoder},
+    codecs::{bmp::BmpDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
 use super::source::Source;
@@ -17,6 +17,7 @@ const TARGA_FOOTER: &[u8] = b"TRUEVISION-XFILE.\0";
 
 const BITMAP: &str = "Windows bitmap (BMP)";
 const TARGA: &str = "Targa (TGA) file";
+const WEBP: &str = "WebP file";
 /// Most pixels along an edge of a bitmap that the decoder takes.
 const BITMAP_EDGE: u64 = 65535;
 
@@ -38,7 +39,7 @@ pub(super) fn decode_bmp(source: &Source<'_>) -> Result<Image, AssetError> {
     check_bitmap_header(source)?;
     let decoder =
         BmpDecoder::new(Cursor::new(source.bytes)).map_err(|e| source.image_error(BITMAP, &e, KNOWN))?;
-    pixels(source, BITMAP, decoder)
+    pixels(source, BITMAP, decoder, BEST_RATIO)
 }
 
 /// Says the numbers of a header that the decoder would refuse.
@@ -70,6 +71,14 @@ fn check_bitmap_header(source: &Source<'_>) -> Result<(), AssetError> {
     Ok(())
 }
 
+/// Reads a WebP file; of an animation the first picture.
+pub(super) fn decode_webp(source: &Source<'_>) -> Result<Image, AssetError> {
+    let decoder =
+        WebPDecoder::new(Cursor::new(source.bytes)).map_err(|e| source.image_error(WEBP, &e, KNOWN))?;
+    // Plain areas take next to no room: what may be unpacked is bounded by the limits alone.
+    pixels(source, WEBP, decoder, u64::MAX)
+}
+
 /// Reads a Targa file.
 pub(super) fn decode_tga(source: &Source<'_>) -> Result<Image, AssetError> {
     const HEADER: usize = 18;
@@ -93,16 +102,27 @@ pub(super) fn decode_tga(source: &Source<'_>) -> Result<Image, AssetError> {
         image::ImageError::Unsupported(_) => unread(),
         other => source.image_error(TARGA, &other, KNOWN),
     })?;
-    pixels(source, TARGA, decoder)
+    pixels(source, TARGA, decoder, BEST_RATIO)
 }
 
 /// True if the file is a Targa file: these have no signature, only their name or their last bytes give them away.
 pub(super) fn is_tga(source: &Source<'_>) -> bool {
     let name = source.name.to_lowercase();
-    [".tga", ".icb", ".vda", ".vst"].iter().any(|s| name.ends_with(s)) || source.bytes.ends_with(TARGA_FOOTER)
+    [".tga", ".icb", ".vda", ".vst"].iter().any(|s| name.ends_with(s)) || is_tga_by_footer(source.bytes)
 }
 
-fn pixels(source: &Source<'_>, what: &str, decoder: impl ImageDecoder) -> Result<Image, AssetError> {
+/// True if these are the bytes of a Targa file of version 2.
+pub(super) fn is_tga_by_footer(bytes: &[u8]) -> bool {
+    bytes.ends_with(TARGA_FOOTER)
+}
+
+/// The pixels of a file a byte of which gives up to `ratio` of them.
+fn pixels(
+    source: &Source<'_>,
+    what: &str,
+    decoder: impl ImageDecoder,
+    ratio: u64,
+) -> Result<Image, AssetError> {
     let (width, height) = decoder.dimensions();
     let channels = match decoder.color_type() {
         ColorType::L8 => 1,
@@ -111,7 +131,7 @@ fn pixels(source: &Source<'_>, what: &str, decoder: impl ImageDecoder) -> Result
         ColorType::Rgba8 => 4,
         _ => return Err(source.unsupported(format!("a {what} with more than 8 bits per channel"))),
     };
-    source.check_size(width.into(), height.into(), channels.into(), BEST_RATIO)?;
+    source.check_size(width.into(), height.into(), channels.into(), ratio)?;
     let size = source.length(what, decoder.total_bytes())?;
     let mut bytes = vec![0; size];
     decoder.read_image(&mut bytes).map_err(|e| source.image_error(what, &e, KNOWN))?;

@@ -10,6 +10,7 @@ pub mod pbrt;
 pub(crate) mod ply;
 mod polygon;
 mod polygon_grid;
+mod reading;
 mod stl;
 mod text;
 mod unify;
@@ -17,6 +18,9 @@ mod unify;
 use std::path::{Path, PathBuf};
 
 use durer_scene::{Diagnostics, Limits, Location, SceneDesc, Sources};
+
+pub use gltf::Reel;
+pub use reading::{Moment, Play, Reading};
 
 use crate::FileAssets;
 
@@ -31,6 +35,8 @@ pub struct Imported {
     pub sources: Sources,
     /// Complaints.
     pub diagnostics: Diagnostics,
+    /// The file as it can be read at other moments; `None` if `desc` holds all of them, or nothing moves.
+    pub reel: Option<Reel>,
 }
 
 impl Imported {
@@ -41,6 +47,16 @@ impl Imported {
             assets: FileAssets::new(folder, limits),
             sources: Sources::default(),
             diagnostics: Diagnostics::default(),
+            reel: None,
+        }
+    }
+
+    /// Brings the description to another moment, if it holds but one of several. What is at rest stays as it was: the same
+    /// meshes, in the same places.
+    pub fn turn_to(&mut self, moment: Moment) {
+        if let Some(mut reel) = self.reel.take() {
+            reel.show(moment, self);
+            self.reel = Some(reel);
         }
     }
 }
@@ -52,23 +68,24 @@ pub struct Format {
     /// Suffixes in lower case, without dot.
     pub suffixes: &'static [&'static str],
     /// Reads a file of this format.
-    read: fn(&Path, &mut Imported),
+    read: fn(&Path, &Reading, &mut Imported),
 }
 
 /// The formats we read.
 pub const FORMATS: &[Format] = &[
     Format { name: "glTF 2.0", suffixes: &["gltf", "glb"], read: gltf::read },
-    Format { name: "pbrt", suffixes: &["pbrt"], read: pbrt::read },
-    Format { name: "Wavefront OBJ", suffixes: &["obj"], read: obj::read },
-    Format { name: "PLY", suffixes: &["ply"], read: ply::read },
-    Format { name: "STL", suffixes: &["stl"], read: stl::read },
+    Format { name: "pbrt", suffixes: &["pbrt"], read: |path, _, imported| pbrt::read(path, imported) },
+    Format { name: "Wavefront OBJ", suffixes: &["obj"], read: |path, _, imported| obj::read(path, imported) },
+    Format { name: "PLY", suffixes: &["ply"], read: |path, _, imported| ply::read(path, imported) },
+    Format { name: "STL", suffixes: &["stl"], read: |path, _, imported| stl::read(path, imported) },
 ];
 
 /// Reads the scene file at `path`, in any letter case of its suffix, behind which `.gz` may stand. Never fails: what
 /// went wrong is in [`Imported::diagnostics`].
-pub fn open(path: &Path, limits: Limits) -> Imported {
+pub fn open(path: &Path, reading: impl Into<Reading>) -> Imported {
+    let reading = reading.into();
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let mut imported = Imported::new(folder, limits);
+    let mut imported = Imported::new(folder, reading.limits);
     let unpacked = if suffix(path) == "gz" { path.with_extension("") } else { path.to_owned() };
     imported.desc.name = unpacked.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let suffix = suffix(&unpacked);
@@ -80,7 +97,7 @@ pub fn open(path: &Path, limits: Limits) -> Imported {
         return imported;
     }
     match format {
-        Some(format) => (format.read)(path, &mut imported),
+        Some(format) => (format.read)(path, &reading, &mut imported),
         None => {
             let known: Vec<_> = FORMATS.iter().flat_map(|f| f.suffixes).map(|s| format!(".{s}")).collect();
             let message = format!("{}: not a scene format durer reads", path.display());

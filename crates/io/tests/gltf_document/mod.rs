@@ -1,7 +1,7 @@
 //! Small glTF documents written by tests, with one `data:` buffer.
 #![allow(dead_code, reason = "each test target uses some of it")]
 use base64::{Engine, engine::general_purpose::STANDARD};
-use durer_io::import::{Imported, open};
+use durer_io::import::{Imported, Reading, open};
 use durer_scene::{Data, Limits, Location, Node, Severity};
 use serde_json::{Value, json};
 
@@ -16,7 +16,16 @@ pub(crate) fn import(document: Value, bytes: &[u8]) -> Imported {
 }
 
 /// [`import`] with these `buffers`, the first of which gets the bytes.
-pub(crate) fn import_buffers(mut document: Value, bytes: &[u8], buffers: Value) -> Imported {
+pub(crate) fn import_buffers(document: Value, bytes: &[u8], buffers: Value) -> Imported {
+    written(document, bytes, (buffers, Limits::default().into()))
+}
+
+/// [`import`] as `reading` asks.
+pub(crate) fn import_as(document: Value, bytes: &[u8], reading: Reading) -> Imported {
+    written(document, bytes, (json!([{"byteLength": bytes.len()}]), reading))
+}
+
+fn written(mut document: Value, bytes: &[u8], (buffers, reading): (Value, Reading)) -> Imported {
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes));
     document["asset"] = json!({"version": "2.0"});
     document["buffers"] = buffers;
@@ -27,7 +36,7 @@ pub(crate) fn import_buffers(mut document: Value, bytes: &[u8], buffers: Value) 
     let place = tempfile::tempdir().expect("temporary folder");
     let path = place.path().join("test.gltf");
     std::fs::write(&path, document.to_string()).expect("written");
-    open(&path, Limits::default())
+    open(&path, reading)
 }
 
 /// [`import`], which must go without errors.

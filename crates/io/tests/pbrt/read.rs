@@ -1,19 +1,11 @@
 //! Reads texts and shows complaints as a user sees them.
 use std::{fs, path::Path};
 
-use durer_io::{
-    FileAssets,
-    import::{Imported, open, pbrt::read_text},
-};
-use durer_scene::{Diagnostics, Limits, Location, SceneDesc, Severity, Sources};
+use durer_io::import::{Imported, open, pbrt::read_text};
+use durer_scene::{Limits, Location, SceneDesc, Severity};
 
 pub(crate) fn read(text: &str) -> Imported {
-    let mut imported = Imported {
-        desc: SceneDesc::default(),
-        assets: FileAssets::new(".".into(), Limits::default()),
-        sources: Sources::default(),
-        diagnostics: Diagnostics::default(),
-    };
+    let mut imported = Imported::new(".".into(), Limits::default());
     read_text("test", text, &mut imported);
     imported
 }

@@ -108,6 +108,22 @@ impl Bsdf {
         (pdf > 0.0 && !weight.is_black()).then_some(Scattered { pdf: Some(pdf), weight, ..common })
     }
 
+    /// The probability with which [`Bsdf::scatter`] goes straight on as if nothing were there.
+    pub fn passing_chance(&self, wo: Vector3) -> f32 {
+        let passes = |lobe: &&Lobe| matches!(lobe, Lobe::PassThrough { .. });
+        // PERF: most surfaces are there (bench render).
+        if !self.lobes().any(|lobe| passes(&lobe)) {
+            return 0.0;
+        }
+        if self.count == 1 {
+            return 1.0;
+        }
+        let shows = self.shows_lights();
+        let total: f32 = self.lobes().map(|lobe| lobe.strength(wo, shows)).sum();
+        let passing: f32 = self.lobes().filter(passes).map(|lobe| lobe.strength(wo, shows)).sum();
+        if total > 0.0 { passing / total } else { 0.0 }
+    }
+
     /// Whether [`Bsdf::scatter`] has a choice among lobes, or among the ways of one.
     pub fn has_choice(&self) -> bool {
         match self.lobes[..self.count] {

@@ -14,7 +14,7 @@ mod spherical;
 
 use std::fmt::Debug;
 
-use durer_core::math::{Point2, Ray, Vector3};
+use durer_core::math::{Point2, Point3, Ray, Vector3};
 use durer_scene::Entry;
 
 pub use differential::{Differential, central_differentials};
@@ -24,6 +24,17 @@ pub use perspective::Perspective;
 pub use realistic::Realistic;
 pub use shutter::Shutter;
 pub use spherical::Spherical;
+
+/// How a camera sees a point, in camera space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// Where its ray to the point starts.
+    pub from: Point3,
+    /// Unit direction of that ray.
+    pub d: Vector3,
+    /// The point's place in the picture, which is `[0, 1]` across and down; there is more around it.
+    pub film: Point2,
+}
 
 /// What a camera's picture falls on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +81,29 @@ pub trait Camera: Debug + Send + Sync {
     /// cameras that do not say, as in the middle of the picture ([`central_differentials`]).
     fn differentials(&self, d: Vector3) -> [Differential; 2] {
         central_differentials(self, d)
+    }
+    /// Whether light can be connected to it: it answers to [`Camera::sees`] and [`Camera::importance`].
+    fn is_connectible(&self) -> bool {
+        false
+    }
+    /// How it sees a point of camera space through the point of the lens that [`Lens::at`] gives for `lens`; `None` if it
+    /// does not.
+    fn sees(&self, p: Point3, lens: Point2) -> Option<Sight> {
+        let _ = (p, lens);
+        None
+    }
+    /// The density with which rays through one point of the lens, spread evenly over the picture (as one of area 1, which
+    /// goes on beyond its edges), cross an area that faces the ray of unit direction `d` at a distance from where it
+    /// starts. 1/m². What leaves a surface towards the camera counts by this and the cosine there (Veach 1997, section
+    /// 8.3.2: importance by the density of points on the lens).
+    fn importance(&self, d: Vector3, distance: f32) -> f32 {
+        let _ = (d, distance);
+        0.0
+    }
+    /// The places around the picture that show the same as `film`, a place in it.
+    fn repeats(&self, film: Point2) -> Vec<Point2> {
+        let _ = film;
+        Vec::new()
     }
     /// What it looks through.
     fn lens(&self) -> &Lens;

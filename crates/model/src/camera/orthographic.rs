@@ -4,7 +4,7 @@ use durer_core::math::{Point2, Point3, Ray, Vector3};
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
-    Camera, Differential, Lens, Shutter,
+    Camera, Differential, Lens, Shutter, Sight,
     lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
     shutter::SHUTTER,
@@ -30,6 +30,24 @@ impl Camera for Orthographic {
     }
     fn differentials(&self, _: Vector3) -> [Differential; 2] {
         self.screen.steps().map(|o| Differential { o, d: Vector3::ZERO })
+    }
+    fn is_connectible(&self) -> bool {
+        true
+    }
+    /// Rays through one point of the lens are parallel: what is not in focus is moved sideways.
+    fn sees(&self, p: Point3, lens: Point2) -> Option<Sight> {
+        if p.z <= 0.0 {
+            return None;
+        }
+        let [x, y] = if self.lens.is_open() { self.lens.at(lens) } else { [0.0; 2] };
+        let left = 1.0 - p.z / self.lens.focus();
+        let at = Point2::new(p.x - x * left, p.y - y * left);
+        let d = Vector3::new(-x, -y, self.lens.focus()).normalize();
+        Some(Sight { from: Point3::new(at.x + x, at.y + y, 0.0), d, film: self.screen.film(at) })
+    }
+    /// The same at every distance: the picture's area, seen aslant.
+    fn importance(&self, d: Vector3, _distance: f32) -> f32 {
+        if d.z > 0.0 { 1.0 / (self.screen.area() * d.z) } else { 0.0 }
     }
     fn lens(&self) -> &Lens {
         &self.lens

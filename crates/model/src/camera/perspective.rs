@@ -3,11 +3,14 @@
 //! Rays through the lens's centre start at the origin and pass the image plane `z = 1` at `tan(fov / 2) (x, y)`, where `(x, y)` is the film
 //! position in the screen window (Physically Based Rendering, 4th edition, section 5.2.2). For a point at depth `z` seen at
 //! angle `a` from the axis the ray is `z / cos a` long.
-use durer_core::math::{Point2, Point3, Ray, Vector3, float};
+use durer_core::math::{
+    Point2, Point3, Ray, Vector3,
+    float::{self, sqr},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    Camera, Differential, Lens, Shutter,
+    Camera, Differential, Lens, Shutter, Sight,
     lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW, Screen, UnitAxis},
     shutter::SHUTTER,
@@ -40,6 +43,26 @@ impl Camera for Perspective {
             let step = step * (self.half * d.z);
             Differential { o: Vector3::ZERO, d: step - d * d.dot(step) }
         })
+    }
+    fn is_connectible(&self) -> bool {
+        true
+    }
+    /// Through the lens's centre goes what passes the plane in focus, or the one at depth 1, at the same place.
+    fn sees(&self, p: Point3, lens: Point2) -> Option<Sight> {
+        if p.z <= 0.0 {
+            return None;
+        }
+        let [x, y] = if self.lens.is_open() { self.lens.at(lens) } else { [0.0; 2] };
+        let from = Point3::new(x, y, 0.0);
+        let d = (p - from).normalize();
+        let seen = |own: f32, along: f32| (own / self.lens.focus() + along / d.z) / self.half;
+        let at = Point2::new(seen(x, d.x), seen(y, d.y));
+        Some(Sight { from, d, film: self.screen.film(at) })
+    }
+    /// The picture covers `A` of the plane at depth 1, and of any plane in focus as much by depth²: `1 / (A cos³ t²)`.
+    fn importance(&self, d: Vector3, distance: f32) -> f32 {
+        let covered = self.screen.area() * sqr(self.half);
+        if d.z > 0.0 { 1.0 / (covered * sqr(d.z * distance) * d.z) } else { 0.0 }
     }
     fn lens(&self) -> &Lens {
         &self.lens

@@ -87,4 +87,14 @@ impl Screen {
         let [x_min, x_max, y_min, y_max] = self.window;
         Point2::new(lerp(film.x, x_min, x_max), lerp(film.y, y_max, y_min))
     }
+    /// The film position of a point of the image plane.
+    pub(super) fn film(&self, at: Point2) -> Point2 {
+        let [x_min, x_max, y_min, y_max] = self.window;
+        Point2::new((at.x - x_min) / (x_max - x_min), (at.y - y_max) / (y_min - y_max))
+    }
+    /// Area of the window.
+    pub(super) fn area(&self) -> f32 {
+        let [x_min, x_max, y_min, y_max] = self.window;
+        ((x_max - x_min) * (y_max - y_min)).abs()
+    }
 }

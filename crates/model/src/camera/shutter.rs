@@ -59,6 +59,10 @@ impl Shutter {
     pub fn is_instant(&self) -> bool {
         self.interval.min == self.interval.max
     }
+    /// Whether rows are exposed one after the other.
+    pub fn is_rolling(&self) -> bool {
+        self.readout != 0.0
+    }
     /// Whether all of the picture is exposed at a single moment.
     pub fn sees_one_moment(&self) -> bool {
         self.is_instant() && self.readout == 0.0

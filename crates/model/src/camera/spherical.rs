@@ -1,10 +1,12 @@
 //! A camera that sees all around: every direction has its place in the picture (Physically Based Rendering, 4th edition,
 //! section 5.3). Up is +y of camera space; an infinite light's pictures have the same layouts about z.
-use durer_core::math::{Point2, Point3, Ray, Vector3};
+use std::f32::consts::PI;
+
+use durer_core::math::{Point2, Point3, Ray, Vector3, float::sqr};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    Camera, Lens, Shutter,
+    Camera, Lens, Shutter, Sight,
     lens::LENS,
     screen::{ASPECT, SCREEN_WINDOW},
     shutter::SHUTTER,
@@ -41,6 +43,42 @@ impl Camera for Spherical {
         };
         let d = self.layout.direction(place);
         Ray { time, ..Ray::new(Point3::ZERO, Vector3::new(d.x, d.z, d.y).normalize()) }
+    }
+    fn is_connectible(&self) -> bool {
+        true
+    }
+    fn sees(&self, p: Point3, _lens: Point2) -> Option<Sight> {
+        let d = p - Point3::ZERO;
+        (d.length_squared() > 0.0).then(|| {
+            let d = d.normalize();
+            let [x, y] = self.layout.uv(Vector3::new(d.x, d.z, d.y));
+            Sight { from: Point3::ZERO, d, film: Point2::new(x, y) }
+        })
+    }
+    /// Of the equal-area map the same everywhere, `1 / 4 pi`; of the other `1 / (2 pi² sin)`, for the angle from the zenith.
+    fn importance(&self, d: Vector3, distance: f32) -> f32 {
+        let density = match self.layout {
+            Layout::LatitudeLongitude => 0.5 / (sqr(PI) * (sqr(d.x) + sqr(d.z)).sqrt()),
+            Layout::EqualArea => 0.25 / PI,
+        };
+        density / sqr(distance)
+    }
+    fn repeats(&self, Point2 { x, y }: Point2) -> Vec<Point2> {
+        let places = match self.layout {
+            // Beyond the seam, and beyond the poles half a turn away.
+            Layout::LatitudeLongitude => {
+                let turned = if x < 0.5 { x + 0.5 } else { x - 0.5 };
+                let beside = |x: f32, y: f32| [[x - 1.0, y], [x, y], [x + 1.0, y]];
+                [beside(x, y), beside(turned, -y), beside(turned, 2.0 - y)].concat()
+            }
+            Layout::EqualArea => {
+                let edges = [[-x, 1.0 - y], [2.0 - x, 1.0 - y], [1.0 - x, -y], [1.0 - x, 2.0 - y]];
+                let corners =
+                    [[x - 1.0, y - 1.0], [x + 1.0, y - 1.0], [x - 1.0, y + 1.0], [x + 1.0, y + 1.0]];
+                [edges, corners].concat()
+            }
+        };
+        places.into_iter().filter(|at| *at != [x, y]).map(|[x, y]| Point2::new(x, y)).collect()
     }
     fn lens(&self) -> &Lens {
         &self.lens

@@ -1,7 +1,7 @@
 //! The constant `I_a` of the classic formula: light from nowhere that only the ambient term sees.
 use durer_core::{
     math::Normal3,
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, LightColor, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
@@ -10,7 +10,7 @@ use super::{Light, LightBound, Track, largest};
 /// An ambient light.
 #[derive(Debug)]
 pub struct Ambient {
-    radiance: Color,
+    radiance: LightColor,
 }
 
 impl Kind for Ambient {
@@ -31,7 +31,7 @@ impl Kind for Ambient {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self { radiance: args.color("L") * args.float("scale") }))
+        Some(Box::new(Self { radiance: args.light_color("L") * args.float("scale") }))
     }
 }
 
@@ -47,9 +47,9 @@ impl Light for Ambient {
         false
     }
     fn bound(&self) -> LightBound {
-        LightBound { ambient: largest(self.radiance), ..LightBound::default() }
+        LightBound { ambient: largest(self.radiance.color), ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, _n: Normal3) -> Spectrum {
-        basis.emission(self.radiance)
+        basis.light(&self.radiance)
     }
 }

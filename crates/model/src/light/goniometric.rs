@@ -78,7 +78,7 @@ impl Kind for Goniometric {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let picture = Picture::read(args, "filename");
-        let intensity = args.color("I");
+        let intensity = args.light_color("I");
         if let Some([width, height]) = picture.as_ref().map(Picture::size).filter(|[w, h]| w != h) {
             let message = format!("the picture has {width} x {height} pixels: an equal-area map is square");
             args.error("filename", message);

@@ -7,7 +7,7 @@ use std::f32::consts::{PI, TAU};
 
 use durer_core::{
     math::{
-        Frame, Normal3, Point3, Vector3,
+        Frame, Normal3, Point2, Point3, Vector3,
         float::{cos, sin, sqr},
     },
     sampling::{Dim, Sampler},
@@ -16,8 +16,8 @@ use durer_core::{
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, sky_blur::SkyBlur,
-    sky_power, steps,
+    Emitted, Extent, LEAST_REACH, Leaving, Light, LightBound, LightCx, LightSample, Source, Track, UNIFORM,
+    largest, sky_blur::SkyBlur, sky_power, steps,
 };
 
 /// Belts of equal solid angle, on each of which directions are drawn evenly.
@@ -119,6 +119,14 @@ impl GradientSky {
     fn density(&self, belt: usize) -> f32 {
         steps::share(&self.belts, belt) * BELTS as f32 * UNIFORM
     }
+    /// A direction and its density, 1/sr; `u` in `[0, 1)²`.
+    fn direction(&self, u: Point2) -> (Vector3, f32) {
+        let (belt, rest, _) = steps::pick(&self.belts, u.y);
+        let z = height(belt as f32 + rest);
+        let (r, azimuth) = ((1.0 - sqr(z)).max(0.0).sqrt(), TAU * u.x);
+        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), z);
+        (Frame::from_z(Normal3::from(self.up)).to_world(local), self.density(belt))
+    }
     fn mixed(&self, basis: Basis, zenith: f32, ground: f32) -> Spectrum {
         let horizon = (1.0 - zenith - ground).max(0.0);
         basis.emission(self.zenith * zenith + self.horizon * horizon + self.ground * ground)
@@ -131,15 +139,15 @@ impl Light for GradientSky {
         self.up = Vector3::from_f64(m.transform_vector3(self.up.to_f64()).normalize());
     }
     fn sample(&self, cx: &LightCx, _p: Point3, sampler: &Sampler) -> Option<LightSample> {
-        let u = sampler.d2(Dim::Light);
-        let (belt, rest, share) = steps::pick(&self.belts, u.y);
-        let z = height(belt as f32 + rest);
-        let (r, azimuth) = ((1.0 - sqr(z)).max(0.0).sqrt(), TAU * u.x);
-        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), z);
-        let wi = Frame::from_z(Normal3::from(self.up)).to_world(local);
-        let pdf = self.density(belt);
+        let (wi, pdf) = self.direction(sampler.d2(Dim::Light));
         let weight = self.escaped(cx.basis, wi) / pdf;
-        (share > 0.0 && !weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
+        (pdf > 0.0 && !weight.is_black()).then_some(LightSample {
+            wi,
+            point: None,
+            weight,
+            pdf: Some(pdf),
+            on: None,
+        })
     }
     fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
         let least = LEAST_REACH * self.mean;
@@ -154,6 +162,18 @@ impl Light for GradientSky {
     fn pdf_escaped(&self, _cx: &LightCx, _from: Point3, d: Vector3) -> f32 {
         let belt = (0.5 * (d.dot(self.up) + 1.0) * BELTS as f32) as usize;
         self.density(belt.min(BELTS - 1))
+    }
+    fn emit(&self, cx: &LightCx, within: &Extent, [place, u]: [Point2; 2]) -> Option<Emitted> {
+        let (wi, pdf_direction) = self.direction(u);
+        let (light, (p, pdf_place)) = (self.escaped(cx.basis, wi), within.before(-wi, place));
+        let emitted = Emitted { p, d: -wi, source: Source::Far, light, pdf_place, pdf_direction };
+        (pdf_direction > 0.0 && !light.is_black()).then_some(emitted)
+    }
+    fn emission_pdf(&self, cx: &LightCx, within: &Extent, ray: &Leaving) -> [f32; 2] {
+        [within.density_at(ray.p, ray.d), self.pdf_escaped(cx, ray.p, -ray.d)]
+    }
+    fn is_emitter(&self) -> bool {
+        self.is_sampled()
     }
     fn surrounds(&self) -> bool {
         true

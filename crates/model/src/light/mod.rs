@@ -6,11 +6,13 @@ mod ambient;
 mod area;
 mod beam;
 mod distant;
+mod emitted;
 mod falloff;
 mod goniometric;
 mod gradient_sky;
 mod ies;
 pub(crate) mod infinite;
+mod pattern_rays;
 mod picture;
 mod point;
 mod projection;
@@ -34,7 +36,7 @@ use durer_core::{
         float::{cos, sin, sqr},
     },
     sampling::Sampler,
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, Color, LightColor, Spectrum},
 };
 use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
@@ -42,6 +44,7 @@ pub use self::{
     ambient::Ambient,
     area::{Area, Emission, Looks, Materials, Orientation, Textures},
     distant::Distant,
+    emitted::{Emitted, Extent, Leaving, Source},
     goniometric::Goniometric,
     gradient_sky::GradientSky,
     ies::Ies,
@@ -69,6 +72,8 @@ pub struct LightSample {
     pub weight: Spectrum,
     /// Density of sampling `wi`, 1/sr; `None` for lights without extent, which no scattered ray can meet.
     pub pdf: Option<f32>,
+    /// The place on a surface that shines.
+    pub on: Option<LightHit>,
 }
 
 /// What lights need to know of a ray.
@@ -133,6 +138,22 @@ pub trait Light: Debug + Send + Sync {
     fn emitted(&self, basis: Basis, surface: &Surface, wo: Vector3) -> Spectrum {
         let _ = (basis, surface, wo);
         Spectrum::BLACK
+    }
+    /// A particle that leaves it, of those that may meet something in `within`: `u` chooses place and direction. `None` if
+    /// that point is black, or the light does not send any.
+    fn emit(&self, cx: &LightCx, within: &Extent, u: [Point2; 2]) -> Option<Emitted> {
+        let _ = (cx, within, u);
+        None
+    }
+    /// Densities with which [`Light::emit`] gives the place (1/m², 1 for points) and the direction (1/sr, 1 for parallel
+    /// light) of a ray that leaves it; zeros if it gives none.
+    fn emission_pdf(&self, cx: &LightCx, within: &Extent, ray: &Leaving) -> [f32; 2] {
+        let _ = (cx, within, ray);
+        [0.0; 2]
+    }
+    /// Whether [`Light::emit`] ever gives something.
+    fn is_emitter(&self) -> bool {
+        false
     }
     /// The most that it can send.
     fn bound(&self) -> LightBound;
@@ -227,14 +248,17 @@ const POSITION: ParamSpec =
 
 /// The colour parameter `name` times `scale`. If `total` is given, it is the luminance that the quantity reached by the
 /// factor `reach` shall have before `scale` (pbrt-v4's `power` and `illuminance`): it replaces the colour's magnitude.
-fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> Color {
-    let (color, scale) = (args.color(name), args.float("scale"));
+fn scaled(args: &mut Args<'_>, name: &str, total: &str, reach: f32) -> LightColor {
+    let (color, scale) = (args.light_color(name), args.float("scale"));
     match args.optional_float(total) {
         Some(_) if color.luminance() <= 0.0 => {
             args.error(name, format!("a light of \"{total}\" needs a colour \"{name}\" that is not black"));
-            Color::BLACK
+            LightColor::default()
         }
-        Some(total) => color * (scale * total / (reach * color.luminance())),
+        Some(total) => {
+            let factor = scale * total / (reach * color.luminance());
+            color * factor
+        }
         None => color * scale,
     }
 }

@@ -2,22 +2,22 @@
 use std::f32::consts::PI;
 
 use durer_core::{
-    math::{Normal3, Point3, Vector3},
+    math::{Normal3, Point2, Point3, Vector3},
     sampling::Sampler,
-    spectrum::Color,
+    spectrum::LightColor,
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
-    Cone, INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track,
-    falloff::Falloff, scaled, track::Anchor,
+    Cone, Emitted, Extent, INTENSITY_SCALE, Leaving, Light, LightBound, LightBounds, LightCx, LightSample,
+    POSITION, POWER, Source, Track, UNIFORM, falloff::Falloff, scaled, track::Anchor, uniform_direction,
 };
 
 /// A point light.
 #[derive(Debug)]
 pub struct Point {
     anchor: Anchor,
-    intensity: Color,
+    intensity: LightColor,
     falloff: Falloff,
 }
 
@@ -50,11 +50,30 @@ impl Light for Point {
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (position, _) = self.anchor.at(cx.time);
         let (wi, irradiance) = self.falloff.towards(position, p)?;
-        let weight = cx.basis.emission(self.intensity) * irradiance;
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+        let weight = cx.basis.light(&self.intensity) * irradiance;
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None, on: None })
+    }
+    fn emit(&self, cx: &LightCx, _within: &Extent, [_, u]: [Point2; 2]) -> Option<Emitted> {
+        let (p, light) = (self.anchor.at(cx.time).0, cx.basis.light(&self.intensity));
+        let (d, pdf_direction) = uniform_direction(u);
+        (self.is_emitter() && !light.is_black()).then_some(Emitted {
+            p,
+            d,
+            source: Source::Point,
+            light,
+            pdf_place: 1.0,
+            pdf_direction,
+        })
+    }
+    fn emission_pdf(&self, _cx: &LightCx, _within: &Extent, _ray: &Leaving) -> [f32; 2] {
+        if self.is_emitter() { [1.0, UNIFORM] } else { [0.0; 2] }
+    }
+    /// Light that does not fade is no particles.
+    fn is_emitter(&self) -> bool {
+        self.falloff == Falloff::InverseSquare
     }
     fn bound(&self) -> LightBound {
-        self.falloff.bound(&self.anchor, self.intensity)
+        self.falloff.bound(&self.anchor, self.intensity.color)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

@@ -106,7 +106,7 @@ impl Kind for Projection {
         }
         let slide = Slide::new(picture.unwrap_or_else(Picture::placeholder), args.float("fov"));
         let factor = factor(args, slide.integral)?;
-        Some(Box::new(Beam::new(args.triple("from").into(), slide, Color::gray(factor))))
+        Some(Box::new(Beam::new(args.triple("from").into(), slide, Color::gray(factor).into())))
     }
 }
 

@@ -7,18 +7,21 @@ use std::f32::consts::{PI, TAU};
 
 use durer_core::{
     math::{
-        Normal3, Point3,
-        float::{acos, cos},
+        Frame, Normal3, Point2, Point3, Vector3,
+        float::{acos, cos, lerp, sin, sqr},
     },
     sampling::Sampler,
-    spectrum::Color,
+    spectrum::LightColor,
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    INTENSITY_SCALE, Light, LightBound, LightBounds, LightCx, LightSample, POSITION, POWER, Track, axis,
-    falloff::Falloff, scaled, track::Anchor,
+    Emitted, Extent, INTENSITY_SCALE, Leaving, Light, LightBound, LightBounds, LightCx, LightSample,
+    POSITION, POWER, Source, Track, axis, falloff::Falloff, scaled, track::Anchor,
 };
+
+/// Halvings that find a place in the rim.
+const HALVINGS: u32 = 26;
 
 /// A spot light.
 #[derive(Debug)]
@@ -27,7 +30,7 @@ pub struct Spot {
     anchor: Anchor,
     cos_inner: f32,
     cos_outer: f32,
-    intensity: Color,
+    intensity: LightColor,
     falloff: Falloff,
 }
 
@@ -91,6 +94,30 @@ impl Spot {
     }
 }
 
+impl Spot {
+    /// Density of the directions of particles at this cosine to the axis, 1/sr: even within the inner cone, which is
+    /// chosen by the power it has, and in the rim by what smoothstep has there.
+    fn density(&self, cos: f32) -> f32 {
+        self.share(cos) / solid_angle(self.cos_inner, self.cos_outer)
+    }
+    /// The cosine that `u` in `[0, 1)` chooses.
+    fn cos_at(&self, u: f32) -> f32 {
+        let (inner, rim) = (1.0 - self.cos_inner, 0.5 * (self.cos_inner - self.cos_outer));
+        let inside = u * (inner + rim);
+        if inside < inner {
+            return 1.0 - inside;
+        }
+        // The integral of smoothstep is t³ - t⁴ / 2; it rises, so halving finds its inverse.
+        let wanted = (1.0 - (inside - inner) / rim).clamp(0.0, 1.0) * 0.5;
+        let (mut low, mut high) = (0.0f32, 1.0f32);
+        for _ in 0..HALVINGS {
+            let t = 0.5 * (low + high);
+            if t * t * t * (1.0 - 0.5 * t) < wanted { low = t } else { high = t }
+        }
+        lerp(0.5 * (low + high), self.cos_outer, self.cos_inner)
+    }
+}
+
 impl Light for Spot {
     fn place(&mut self, track: &Track) {
         self.anchor.place(track);
@@ -98,11 +125,36 @@ impl Light for Spot {
     fn sample(&self, cx: &LightCx, p: Point3, _sampler: &Sampler) -> Option<LightSample> {
         let (position, axis) = self.anchor.at(cx.time);
         let (wi, irradiance) = self.falloff.towards(position, p)?;
-        let weight = cx.basis.emission(self.intensity) * (irradiance * self.share(-wi.dot(axis)));
-        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None })
+        let weight = cx.basis.light(&self.intensity) * (irradiance * self.share(-wi.dot(axis)));
+        (!weight.is_black()).then_some(LightSample { wi, point: Some(position), weight, pdf: None, on: None })
+    }
+    fn emit(&self, cx: &LightCx, _within: &Extent, [_, u]: [Point2; 2]) -> Option<Emitted> {
+        let (p, axis) = self.anchor.at(cx.time);
+        let cos_axis = self.cos_at(u.x);
+        let (r, azimuth) = ((1.0 - sqr(cos_axis)).max(0.0).sqrt(), TAU * u.y);
+        let local = Vector3::new(r * cos(azimuth), r * sin(azimuth), cos_axis);
+        let d = Frame::from_z(Normal3::from(axis)).to_world(local).normalize();
+        let light = cx.basis.light(&self.intensity) * self.share(d.dot(axis));
+        let pdf_direction = self.density(d.dot(axis));
+        (self.is_emitter() && !light.is_black()).then_some(Emitted {
+            p,
+            d,
+            source: Source::Point,
+            light,
+            pdf_place: 1.0,
+            pdf_direction,
+        })
+    }
+    fn emission_pdf(&self, cx: &LightCx, _within: &Extent, ray: &Leaving) -> [f32; 2] {
+        let cos = ray.d.dot(self.anchor.at(cx.time).1);
+        if self.is_emitter() { [1.0, self.density(cos)] } else { [0.0; 2] }
+    }
+    /// Light that does not fade is no particles.
+    fn is_emitter(&self) -> bool {
+        self.falloff == Falloff::InverseSquare && solid_angle(self.cos_inner, self.cos_outer) > 0.0
     }
     fn bound(&self) -> LightBound {
-        self.falloff.bound(&self.anchor, self.intensity)
+        self.falloff.bound(&self.anchor, self.intensity.color)
     }
     fn bounds(&self) -> Option<LightBounds> {
         (self.falloff == Falloff::InverseSquare).then(|| LightBounds {

@@ -73,7 +73,7 @@ impl Kind for Sun {
         let irradiance =
             irradiance(args.float("turbidity"), sun.dot(up) as f32) * (args.float("scale") / WHITE);
         let travels = Vector3::from_f64(-sun);
-        Some(Box::new(Distant::new(Point3::ZERO, travels, irradiance, args.float("angle"))))
+        Some(Box::new(Distant::new(Point3::ZERO, travels, irradiance.into(), args.float("angle"))))
     }
 }
 

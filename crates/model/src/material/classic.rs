@@ -97,7 +97,7 @@ impl Kind for Classic {
             transmission: unless_black(share_input(args, "transmission")),
             medium: {
                 let eta = args.float("eta");
-                Medium::read(args, eta)
+                Medium::read(args, (eta, None))
             },
             fresnel: args.bool("fresnel"),
             gloss: args.optional_float("gloss").unwrap_or(f32::INFINITY),
@@ -120,22 +120,23 @@ impl Material for Classic {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
         let mut bsdf = Bsdf::default();
-        bsdf.add(Lobe::Diffuse { albedo: share(cx, self.diffuse, &at) });
-        if let Some(ambient) = self.ambient {
+        bsdf.add(Lobe::Diffuse { albedo: share(cx, &self.diffuse, &at) });
+        if let Some(ambient) = &self.ambient {
             bsdf.add(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
         }
-        let optional = |input: Option<ColorInput>| input.map_or(Spectrum::BLACK, |i| share(cx, i, &at));
-        let specular = optional(self.specular);
+        let optional =
+            |input: &Option<ColorInput>| input.as_ref().map_or(Spectrum::BLACK, |i| share(cx, i, &at));
+        let specular = optional(&self.specular);
         if !specular.is_black() {
             bsdf.add(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
         }
-        let (reflection, transmission) = (optional(self.reflection), optional(self.transmission));
+        let (reflection, transmission) = (optional(&self.reflection), optional(&self.transmission));
         if !transmission.is_black() || (self.fresnel && !reflection.is_black()) {
             let split = match self.fresnel {
                 true => Split::Fresnel { reflection, transmission },
                 false => Split::Constant { reflection, transmission },
             };
-            let interface = Interface { eta: self.medium.eta, split };
+            let interface = Interface { eta: self.medium.eta_d, split };
             bsdf.add(match self.gloss.min(self.translucency).is_finite() {
                 true => Lobe::Blurred(Blurred { interface, blur: self.blur() }),
                 false => Lobe::Interface(interface),
@@ -151,10 +152,11 @@ impl Material for Classic {
     /// Nothing keeps the coefficients' sum below 1. The highlight of a lamp is less than twice its coefficient times the
     /// lamp: `ks cos^n / pi` over a hemisphere.
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
-        let most = |input: Option<ColorInput>| input.map_or(0.0, |input| largest_share(cx, input));
-        let diffuse = largest_share(cx, self.diffuse);
-        let (ambient, specular) = (most(self.ambient.or(Some(self.diffuse))), most(self.specular));
-        let (reflection, transmission) = (most(self.reflection), most(self.transmission));
+        let most = |input: Option<&ColorInput>| input.map_or(0.0, |input| largest_share(cx, input));
+        let diffuse = largest_share(cx, &self.diffuse);
+        let (ambient, specular) =
+            (most(self.ambient.as_ref().or(Some(&self.diffuse))), most(self.specular.as_ref()));
+        let (reflection, transmission) = (most(self.reflection.as_ref()), most(self.transmission.as_ref()));
         let followed = if self.fresnel { reflection.max(transmission) } else { reflection + transmission };
         let blurs = [(reflection, self.gloss), (transmission, self.translucency)];
         let blurred: f32 = blurs
@@ -171,6 +173,6 @@ impl Material for Classic {
         Sent { own, scattered: 0.0, followed: followed.min(1.0) }
     }
     fn medium(&self) -> Option<Medium> {
-        self.transmission.is_some().then_some(self.medium)
+        self.transmission.is_some().then(|| self.medium.clone())
     }
 }

@@ -133,7 +133,7 @@ impl Kind for CoatedDiffuse {
 impl Material for CoatedDiffuse {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
-        let albedo = share(cx, self.reflectance, &surface.texture_at());
+        let albedo = share(cx, &self.reflectance, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
         if self.layers.cloud.is_some() {

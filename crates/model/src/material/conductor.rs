@@ -1,14 +1,14 @@
 //! Metal: GGX microfacets, each a smooth conductor after Fresnel's equations.
 //!
-//! In colours instead of wavelengths a metal has three indices. They are chosen so that the colour of its reflectance at
+//! Where rays carry colours and no wavelengths a metal has three indices. They are chosen so that the colour of its reflectance at
 //! normal incidence is that of the measured curves, integrated over wavelengths: see [`durer_core::spectrum::conductor`].
 use durer_core::{
     math::Vector3,
-    spectrum::{Color, Sampled, conductor, conductor_of, curve},
+    spectrum::{Basis, Color, Curve, Sampled, Spectrum, conductor, conductor_of, curve, extinction},
 };
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, detail::Detail, roughness::Roughness, share_input};
+use super::{Material, detail::Detail, roughness::Roughness, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bounced, Bsdf, Facets, Glossy, Lobe, Matte, Reflectance},
@@ -25,10 +25,10 @@ pub struct Conductor {
 }
 
 /// Where the indices come from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Metal {
-    /// Index and extinction.
-    Index { eta: Color, k: Color },
+    /// Index and extinction, of colours and of wavelengths.
+    Index { eta: Color, k: Color, curves: Option<[Curve; 2]> },
     /// What is reflected at normal incidence, by something of index 1 whose index is then divided by that outside it.
     Reflectance { input: ColorInput, outside: f32 },
 }
@@ -77,6 +77,11 @@ impl Metal {
         let mut curve_of =
             |name: &str, usual: &str| if args.is_set(name) { args.curve(name) } else { curve(usual) };
         let curves = (curve_of(eta, "metal-Cu-eta"), curve_of(k, "metal-Cu-k"));
+        let of_waves = |curve: &Sampled| Curve::nearest(curve).scaled(1.0 / outside);
+        let of_both = match &curves {
+            (Some(eta), Some(k)) => Some([of_waves(eta), of_waves(k)]),
+            _ => None,
+        };
         let (eta, k) = match curves {
             (Some(eta), Some(k)) => conductor(&eta, &k, outside),
             (from_eta, from_k) => {
@@ -87,19 +92,28 @@ impl Metal {
                 (color(from_eta, eta) * (1.0 / outside), color(from_k, k) * (1.0 / outside))
             }
         };
-        Self::Index { eta, k }
+        Self::Index { eta, k, curves: of_both }
     }
 
     /// The reflectance at a point.
     pub(super) fn at(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Reflectance {
-        let (eta, k) = match *self {
-            Self::Index { eta, k } => (eta, k),
-            Self::Reflectance { input, outside } => {
-                let (eta, k) = conductor_of(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)));
-                (eta * (1.0 / outside), k * (1.0 / outside))
+        match (self, cx.basis) {
+            (Self::Index { eta, k, curves: Some([eta_curve, k_curve]) }, basis @ Basis::Spectral(_)) => {
+                Reflectance::Index { eta: basis.curve(eta_curve, *eta), k: basis.curve(k_curve, *k) }
             }
-        };
-        Reflectance::Index { eta: cx.basis.reflectance(eta), k: cx.basis.reflectance(k) }
+            (Self::Index { eta, k, .. }, basis) => {
+                Reflectance::Index { eta: basis.unbounded(*eta), k: basis.unbounded(*k) }
+            }
+            (Self::Reflectance { input, outside }, Basis::Rgb) => {
+                let (eta, k) = conductor_of(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)));
+                let (eta, k) = (eta * (1.0 / outside), k * (1.0 / outside));
+                Reflectance::Index { eta: cx.basis.reflectance(eta), k: cx.basis.reflectance(k) }
+            }
+            (Self::Reflectance { input, outside }, Basis::Spectral(_)) => {
+                let k = share(cx, input, at).map(extinction);
+                Reflectance::Index { eta: Spectrum::ONE / *outside, k: k / *outside }
+            }
+        }
     }
 }
 

@@ -27,7 +27,8 @@ impl Kind for Dielectric {
                 "eta",
                 ParamType::Index,
                 ParamDefault::Float(1.5),
-                "Index of refraction inside, relative to the outside.",
+                "Index of refraction inside, relative to the outside; one that changes with wavelength splits light \
+                 into its colours where rays carry wavelengths.",
             )
             .range(0.1, 10.0),
             Medium::PRIORITY,
@@ -41,7 +42,7 @@ impl Kind for Dielectric {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let eta = args.index("eta");
+        let eta = args.refraction("eta");
         Some(Box::new(Self {
             medium: Medium::read(args, eta),
             roughness: Roughness::read(args),
@@ -53,7 +54,7 @@ impl Kind for Dielectric {
 impl Material for Dielectric {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
-        let interface = Interface::clear(self.medium.eta);
+        let interface = Interface::clear(self.medium.eta(&cx.basis));
         let facets = self.roughness.facets(cx, surface);
         Bsdf::default().with(match facets.is_smooth() {
             true => Lobe::Interface(interface),
@@ -61,7 +62,7 @@ impl Material for Dielectric {
         })
     }
     fn medium(&self) -> Option<Medium> {
-        Some(self.medium)
+        Some(self.medium.clone())
     }
     /// Of light without extent seen through frosted glass there is no bound: where indices are nearly the same, nearly
     /// all directions are one.

@@ -49,7 +49,7 @@ impl Material for Diffuse {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
         let at = surface.texture_at();
-        let albedo = share(cx, self.reflectance, &at);
+        let albedo = share(cx, &self.reflectance, &at);
         let roughness = (cx.float(self.sigma, &at) / 90.0).clamp(0.0, 1.0);
         Bsdf::default().with(match roughness > 0.0 {
             true => Lobe::Matte(Matte::rough(albedo, roughness)),
@@ -60,7 +60,7 @@ impl Material for Diffuse {
         if self.sigma != FloatInput::Constant(0.0) {
             return Sent::UNBOUNDED;
         }
-        let scattered = largest_share(cx, self.reflectance) * arriving.all();
+        let scattered = largest_share(cx, &self.reflectance) * arriving.all();
         Sent { scattered, ..Sent::default() }
     }
 }

@@ -47,8 +47,8 @@ impl Material for DiffuseTransmission {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
         let at = surface.texture_at();
-        let scaled = |input: ColorInput| (share(cx, input, &at) * self.scale).map(|v| v.min(1.0));
-        let (reflected, transmitted) = (scaled(self.reflectance), scaled(self.transmittance));
+        let scaled = |input: &ColorInput| (share(cx, input, &at) * self.scale).map(|v| v.min(1.0));
+        let (reflected, transmitted) = (scaled(&self.reflectance), scaled(&self.transmittance));
         // Never more than arrives: where both together exceed 1 they give way in proportion.
         let within = (reflected + transmitted).map(|sum| 1.0 / sum.max(1.0));
         Bsdf::default()

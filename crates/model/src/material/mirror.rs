@@ -43,7 +43,7 @@ impl Kind for Mirror {
 impl Material for Mirror {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
-        let weight = share(cx, self.reflectance, &at);
+        let weight = share(cx, &self.reflectance, &at);
         let facets = self.roughness.facets(cx, surface);
         let reflectance = Reflectance::Schlick { f0: weight, f90: weight };
         Bsdf::default().with(match facets.is_smooth() {
@@ -52,7 +52,7 @@ impl Material for Mirror {
         })
     }
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
-        let followed = largest_share(cx, self.reflectance);
+        let followed = largest_share(cx, &self.reflectance);
         match self.roughness.constant() {
             Some(alpha) if alpha < SMOOTH => Sent { followed, ..Sent::default() },
             alpha => Sent {

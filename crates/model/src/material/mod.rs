@@ -115,7 +115,7 @@ pub const NOT_YET: &[(&str, &str)] = &[("measured", "diffuse"), ("subsurface", "
 /// because it would be applied to the wavelengths of a spectrum.)
 fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
     let input = args.color_input(name);
-    if let ColorInput::Constant(color) = input
+    if let Some(color) = input.even()
         && color.rgb.iter().any(|&v| v > 1.0)
     {
         args.warning(
@@ -127,11 +127,11 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 }
 
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
-fn share(cx: &ShadeCx<'_>, input: ColorInput, at: &TextureAt) -> Spectrum {
-    cx.basis.reflectance(cx.color(input, at).map(|v| v.clamp(0.0, 1.0)))
+fn share(cx: &ShadeCx<'_>, input: &ColorInput, at: &TextureAt) -> Spectrum {
+    cx.weight(input, at, |v| v.clamp(0.0, 1.0))
 }
 
 /// No [`share`] of this input is larger.
-fn largest_share(cx: &ShadeCx<'_>, input: ColorInput) -> f32 {
+fn largest_share(cx: &ShadeCx<'_>, input: &ColorInput) -> f32 {
     cx.largest_color(input).min(1.0)
 }

@@ -60,8 +60,8 @@ impl Material for Phong {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
         let at = surface.texture_at();
-        let albedo = share(cx, self.diffuse, &at);
-        let specular = share(cx, self.specular, &at).zip(albedo, |s, d| s.min(1.0 - d));
+        let albedo = share(cx, &self.diffuse, &at);
+        let specular = share(cx, &self.specular, &at).zip(albedo, |s, d| s.min(1.0 - d));
         Bsdf::default().with(Lobe::Diffuse { albedo }).with(Lobe::Phong(Highlight {
             specular,
             exponent: self.exponent,

@@ -3,7 +3,9 @@
 //! A new shape is one file here and one line in [`SHAPES`].
 
 mod bilinear;
+mod chord;
 mod curve;
+mod cylinder;
 mod disk;
 pub(crate) mod flat;
 pub mod loopsubdiv;
@@ -24,6 +26,7 @@ use durer_scene::{Entry, Mesh, ParamDefault, ParamSpec, ParamType};
 
 pub use bilinear::{BilinearMesh, Patch};
 pub use curve::{Curve, StrandForm, Strands};
+pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use loopsubdiv::LoopSubdiv;
 pub use mesh::mesh_surface;
@@ -118,13 +121,11 @@ impl Geometry {
     }
 }
 
-/// Words of pbrt-v4 that are known but not built yet.
-pub const NOT_YET: &[&str] = &["cylinder"];
-
 /// All kinds of shape.
 pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<BilinearMesh>(),
     Entry::of::<Curve>(),
+    Entry::of::<Cylinder>(),
     Entry::of::<Disk>(),
     Entry::of::<LoopSubdiv>(),
     Entry::of::<Plane>(),

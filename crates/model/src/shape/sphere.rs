@@ -1,9 +1,7 @@
 //! Sphere around the origin, whole or cut.
 //!
 //! Implicit form `H(P) = P.P - r^2 = 0` (lecture, "Sphere Representation"; Physically Based Rendering, 4th edition, section
-//! 6.2). The ray's foot point `l = o - (o.d / d.d) d` is where it comes nearest to the centre; the roots lie half a chord
-//! before and behind it, `t = -o.d / d.d -+ sqrt((r^2 - |l|^2) / d.d)`, which does not cancel like `b^2 - 4ac` (section
-//! 6.8.3). All in f64 from the f32 ray, with a bound on the error of both roots.
+//! 6.2), solved as a chord of the ray.
 use std::f32::consts::{PI, TAU};
 
 use durer_core::{
@@ -12,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, accept, arc_angle};
+use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, arc_angle, chord::Chord};
 use crate::{Surface, texture::Footprint};
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
@@ -28,23 +26,6 @@ pub struct Sphere {
     /// Polar angles at `z_min` (the larger) and `z_max`, radians.
     theta: (f32, f32),
     whole: bool,
-}
-
-/// Both places where a line meets the sphere: half a chord before and behind its middle.
-struct Roots {
-    middle: f64,
-    half: f64,
-    /// 1 / d.d
-    inverse: f64,
-}
-
-impl Roots {
-    fn near(&self) -> f64 {
-        self.middle - self.half
-    }
-    fn far(&self) -> f64 {
-        self.middle + self.half
-    }
 }
 
 impl Sphere {
@@ -63,34 +44,8 @@ impl Sphere {
         Self { radius, z_min, z_max, phi_max, theta, whole }
     }
 
-    fn roots(&self, ray: &Ray) -> Option<Roots> {
-        let (o, d, r) = (ray.o.to_f64(), ray.d.to_f64(), f64::from(self.radius));
-        let inverse = 1.0 / d.length_squared();
-        let middle = -o.dot(d) * inverse;
-        let room = r * r - (o + d * middle).length_squared();
-        // False for the NaN of an infinite direction, and for a zero one.
-        if !(room >= 0.0 && inverse.is_finite()) {
-            return None;
-        }
-        Some(Roots { middle, half: (room * inverse).sqrt(), inverse })
-    }
-
-    /// Bound on the absolute error of both roots.
-    fn error(&self, ray: &Ray, roots: &Roots) -> f64 {
-        let o = ray.o.to_f64().abs().element_sum();
-        // The foot point is off by some roundings of |o|; what that does to a square root is
-        // |sqrt(x + e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
-        let reach = o + f64::from(self.radius);
-        let room = 16.0 * f64::EPSILON * reach * reach * roots.inverse;
-        let half = (room / roots.half).min(room.sqrt());
-        half + 8.0 * f64::EPSILON * (o * roots.inverse.sqrt() + roots.middle.abs() + roots.half)
-    }
-
-    /// More than the square of [`Self::error`], which with `reach` as there is at most
-    /// `(sqrt(16 epsilon) + 24 epsilon) reach / |d|`.
-    fn square_of_more_than_error(&self, ray: &Ray, roots: &Roots) -> f64 {
-        let reach = ray.o.to_f64().abs().element_sum() + f64::from(self.radius);
-        17.0 * f64::EPSILON * reach * reach * roots.inverse
+    fn chord(&self, ray: &Ray) -> Option<Chord> {
+        Chord::of(ray.o.to_f64(), ray.d.to_f64(), self.radius)
     }
 
     /// The point at `t`, put back on the sphere.
@@ -124,25 +79,19 @@ impl Shape for Sphere {
     }
 
     fn intersect(&self, ray: &Ray) -> Option<ShapeHit> {
-        let roots = self.roots(ray)?;
-        if roots.far() < ray.t_min.into() || roots.near() as f32 > ray.t_max {
+        let chord = self.chord(ray)?;
+        if chord.far() < ray.t_min.into() || chord.near() as f32 > ray.t_max {
             return None;
         }
-        [roots.near(), roots.far()].into_iter().find_map(|t| {
-            // PERF: the exact bound takes two roots and a division (bench render).
-            let ahead = t - f64::from(ray.t_min);
-            let clear = ahead > 0.0 && ahead * ahead > self.square_of_more_than_error(ray, &roots);
-            let rounded = accept(ray, t, if clear { 0.0 } else { self.error(ray, &roots) })?;
+        [chord.near(), chord.far()].into_iter().find_map(|t| {
+            let rounded = chord.hit(ray, t)?;
             (self.whole || self.keeps(self.point(ray, t))).then_some(ShapeHit { t: rounded, u: 0.0, v: 0.0 })
         })
     }
 
     fn surface(&self, ray: &Ray, hit: &ShapeHit) -> Surface {
         // Solved again: rounding t to f32 would slide the point along the ray by up to t * 2^-24.
-        let wanted = f64::from(hit.t);
-        let t = self
-            .roots(ray)
-            .map_or(wanted, |roots| if wanted <= roots.middle { roots.near() } else { roots.far() });
+        let t = self.chord(ray).map_or(hit.t.into(), |chord| chord.root_at(hit.t));
         let exact = self.point(ray, t);
         let p = Point3::from_f64(exact);
         let n = Normal3::from_f64(exact / f64::from(self.radius));

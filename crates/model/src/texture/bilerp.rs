@@ -1,5 +1,8 @@
 //! Four corners, interpolated: `(1 - u)(1 - v) v00 + u (1 - v) v10 + (1 - u) v v01 + u v v11`, and on beyond the unit square.
-use durer_core::{glam::DAffine3, spectrum::Color};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
@@ -9,7 +12,7 @@ use super::{
 use crate::ShadeCx;
 
 /// A bilinear function of the texture coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Bilerp<V> {
     /// v00, v10, v01, v11.
     corners: [V; 4],
@@ -25,15 +28,19 @@ impl<V: Value> Bilerp<V> {
 
 impl<V: Value> Texture for Bilerp<V> {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        let parts = self.corners.into_iter().zip(self.weights(at));
+        let parts = self.corners.iter().zip(self.weights(at));
         parts.fold(Color::BLACK, |sum, (corner, w)| sum + corner.color(cx, at) * w)
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        self.corners.into_iter().zip(self.weights(at)).map(|(corner, w)| corner.float(cx, at) * w).sum()
+        self.corners.iter().zip(self.weights(at)).map(|(corner, w)| corner.float(cx, at) * w).sum()
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        let parts = self.corners.iter().zip(self.weights(at));
+        parts.fold(Spectrum::BLACK, |sum, (corner, w)| sum + corner.weight(cx, at) * w)
     }
     /// Beyond the unit square there is no bound.
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
-        let most = self.corners.into_iter().map(|corner| corner.largest(cx)).fold(0.0, f32::max);
+        let most = self.corners.iter().map(|corner| corner.largest(cx)).fold(0.0, f32::max);
         if most > 0.0 { f32::INFINITY } else { 0.0 }
     }
     fn place(&mut self, render_from_texture: &DAffine3) {

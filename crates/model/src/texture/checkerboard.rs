@@ -6,7 +6,10 @@
 //! Filtered, the share of `tex2` is `1/2 - 1/2 s(u) s(v)`: the board is a product of square waves, each of which is
 //! averaged under a tent of half width `r = 3/2 max(|du/dx|, |du/dy|)`, as in pbrt-v4. With the second integral `S` of the
 //! wave that is `(S(u + r) - 2 S(u) + S(u - r)) / r²`.
-use durer_core::{glam::DAffine3, spectrum::Color};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
@@ -16,7 +19,7 @@ use super::{
 use crate::ShadeCx;
 
 /// What the board is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Board {
     Squares(Mapping),
     Cubes(Space),
@@ -28,7 +31,7 @@ const TENT: f64 = 1.5;
 const WIDEST: f64 = 1e4;
 
 /// Two alternating textures.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Checkerboard<V> {
     tex1: V,
     tex2: V,
@@ -109,10 +112,13 @@ fn filtered_share<const N: usize>(c: [f64; N], widths: [f64; N]) -> f32 {
 
 impl<V: Value> Texture for Checkerboard<V> {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        V::blend_colors(cx, at, (self.tex1, self.tex2), self.share(at))
+        V::blend((&self.tex1, &self.tex2), self.share(at), |tex| tex.color(cx, at))
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        V::blend_floats(cx, at, (self.tex1, self.tex2), self.share(at))
+        V::blend((&self.tex1, &self.tex2), self.share(at), |tex| tex.float(cx, at))
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        V::blend((&self.tex1, &self.tex2), self.share(at), |tex| tex.weight(cx, at))
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         self.tex1.largest(cx).max(self.tex2.largest(cx))

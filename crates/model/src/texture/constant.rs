@@ -1,12 +1,12 @@
 //! The same value everywhere.
-use durer_core::spectrum::Color;
+use durer_core::spectrum::{Color, Spectrum};
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{Texture, TextureAt, Value};
 use crate::ShadeCx;
 
 /// One value; it may also pass another texture on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Constant<V> {
     value: V,
 }
@@ -17,6 +17,9 @@ impl<V: Value> Texture for Constant<V> {
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.value.float(cx, at)
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        self.value.weight(cx, at)
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         self.value.largest(cx)

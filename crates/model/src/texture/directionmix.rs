@@ -2,7 +2,7 @@
 use durer_core::{
     glam::{DAffine3, DVec3},
     math::Vector3,
-    spectrum::Color,
+    spectrum::{Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -10,7 +10,7 @@ use super::{Texture, TextureAt, Value};
 use crate::ShadeCx;
 
 /// `a tex1 + (1 - a) tex2` with `a` the magnitude of the cosine between the geometric normal and a direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DirectionMix<V> {
     tex1: V,
     tex2: V,
@@ -29,10 +29,13 @@ impl<V: Value> DirectionMix<V> {
 
 impl<V: Value> Texture for DirectionMix<V> {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        V::blend_colors(cx, at, (self.tex1, self.tex2), self.amount(at))
+        V::blend((&self.tex1, &self.tex2), self.amount(at), |tex| tex.color(cx, at))
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        V::blend_floats(cx, at, (self.tex1, self.tex2), self.amount(at))
+        V::blend((&self.tex1, &self.tex2), self.amount(at), |tex| tex.float(cx, at))
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        V::blend((&self.tex1, &self.tex2), self.amount(at), |tex| tex.weight(cx, at))
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         self.tex1.largest(cx).max(self.tex2.largest(cx))

@@ -2,7 +2,10 @@
 //!
 //! Squares have their middles at whole coordinates. Noise at `(i + 1/2, j + 1/2)` says whether square (i, j) has a dot, noise
 //! further on how far its centre is shifted (Physically Based Rendering, 3rd edition, section 10.5.2). Not filtered.
-use durer_core::{glam::DAffine3, spectrum::Color};
+use durer_core::{
+    glam::DAffine3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
 use super::{
@@ -18,7 +21,7 @@ const RADIUS: f64 = 0.35;
 const MOST_SHIFT: f64 = 0.5 - RADIUS;
 
 /// Dots on a ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Dots<V> {
     inside: V,
     outside: V,
@@ -38,8 +41,8 @@ fn is_dot(c: [f64; 2]) -> bool {
 }
 
 impl<V: Value> Dots<V> {
-    fn value(&self, at: &TextureAt) -> V {
-        if is_dot(self.mapping.apply(at)) { self.inside } else { self.outside }
+    fn value(&self, at: &TextureAt) -> &V {
+        if is_dot(self.mapping.apply(at)) { &self.inside } else { &self.outside }
     }
 }
 
@@ -49,6 +52,9 @@ impl<V: Value> Texture for Dots<V> {
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.value(at).float(cx, at)
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        self.value(at).weight(cx, at)
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         self.inside.largest(cx).max(self.outside.largest(cx))

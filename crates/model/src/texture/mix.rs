@@ -1,12 +1,12 @@
 //! Blend of two textures.
-use durer_core::spectrum::Color;
+use durer_core::spectrum::{Color, Spectrum};
 use durer_scene::{Args, FloatInput, Kind, ParamSpec, Schema};
 
 use super::{Texture, TextureAt, Value};
 use crate::ShadeCx;
 
 /// `(1 - amount) tex1 + amount tex2`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mix<V> {
     tex1: V,
     tex2: V,
@@ -15,13 +15,16 @@ pub struct Mix<V> {
 
 impl<V: Value> Texture for Mix<V> {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        V::blend_colors(cx, at, (self.tex1, self.tex2), cx.float(self.amount, at))
+        V::blend((&self.tex1, &self.tex2), cx.float(self.amount, at), |tex| tex.color(cx, at))
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        V::blend_floats(cx, at, (self.tex1, self.tex2), cx.float(self.amount, at))
+        V::blend((&self.tex1, &self.tex2), cx.float(self.amount, at), |tex| tex.float(cx, at))
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        V::blend((&self.tex1, &self.tex2), cx.float(self.amount, at), |tex| tex.weight(cx, at))
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
-        let [a, b] = [self.tex1, self.tex2].map(|tex| tex.largest(cx));
+        let [a, b] = [&self.tex1, &self.tex2].map(|tex| tex.largest(cx));
         let most = cx.largest_float(self.amount);
         // Between both where the amount is a share; it need not be.
         a.max(b).max((1.0 + most) * a + most * b)

@@ -24,7 +24,7 @@ use std::{cell::RefCell, fmt::Debug};
 use durer_core::{
     glam::DAffine3,
     math::{Normal3, Point2, Point3},
-    spectrum::Color,
+    spectrum::{Color, Spectrum},
 };
 use durer_scene::{ColorInput, Entry, FloatInput, TextureValue};
 
@@ -109,6 +109,10 @@ pub trait Texture: Debug + Send + Sync {
     fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
     /// The number at a point.
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
+    /// The colour at a point as a weight in the lanes of the basis; where textures are made of measured curves, theirs.
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        cx.basis.reflectance(self.color(cx, at).map(|v| v.max(0.0)))
+    }
     /// No component of a colour and no number of it is of larger magnitude.
     fn largest(&self, cx: &ShadeCx<'_>) -> f32;
     /// Told once, before it is looked up, where its own space is. Placements have inverses.

@@ -1,12 +1,12 @@
 //! Product of a texture and a number that may be a texture too.
-use durer_core::spectrum::Color;
+use durer_core::spectrum::{Color, Spectrum};
 use durer_scene::{Args, FloatInput, Kind, ParamSpec, Schema};
 
 use super::{Texture, TextureAt, Value};
 use crate::ShadeCx;
 
 /// `tex * scale`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scale<V> {
     tex: V,
     scale: FloatInput,
@@ -18,6 +18,9 @@ impl<V: Value> Texture for Scale<V> {
     }
     fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         self.tex.float(cx, at) * cx.float(self.scale, at)
+    }
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        self.tex.weight(cx, at) * cx.float(self.scale, at)
     }
     fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         self.tex.largest(cx) * cx.largest_float(self.scale)

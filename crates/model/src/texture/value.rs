@@ -1,14 +1,17 @@
 //! What a texture yields: numbers or colours. A kind that works for both is written once, generic over this.
-use std::fmt::Debug;
+use std::{
+    fmt::Debug,
+    ops::{Add, Mul},
+};
 
-use durer_core::spectrum::Color;
+use durer_core::spectrum::{Color, Spectrum};
 use durer_scene::{Args, ColorInput, FloatInput, ParamDefault, ParamType};
 
 use super::TextureAt;
 use crate::ShadeCx;
 
 /// An input of a texture, of the kind of value that the texture itself yields.
-pub trait Value: Debug + Copy + Send + Sync + 'static {
+pub trait Value: Debug + Clone + Send + Sync + 'static {
     /// What scene files may give.
     const TYPE: ParamType;
     /// 0 or black.
@@ -18,31 +21,27 @@ pub trait Value: Debug + Copy + Send + Sync + 'static {
     /// The parameter `name` of `args`.
     fn read(args: &mut Args<'_>, name: &str) -> Self;
     /// As a colour; a number is grey.
-    fn color(self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
+    fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color;
     /// As a number; of a colour, its luminance.
-    fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
+    fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32;
+    /// As [`super::Texture::weight`].
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum;
     /// As [`super::Texture::largest`].
-    fn largest(self, cx: &ShadeCx<'_>) -> f32;
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32;
 
-    /// `(1 - share) a + share b` of the colours of `a` and `b`; what has no share is not looked up.
-    fn blend_colors(cx: &ShadeCx<'_>, at: &TextureAt, (a, b): (Self, Self), share: f32) -> Color {
+    /// `(1 - share) a + share b` of what `of` says of `a` and `b`; what has no share is not looked up.
+    fn blend<T: Add<Output = T> + Mul<f32, Output = T>>(
+        (a, b): (&Self, &Self),
+        share: f32,
+        of: impl Fn(&Self) -> T,
+    ) -> T {
         if share == 0.0 {
-            return a.color(cx, at);
+            return of(a);
         }
         if share == 1.0 {
-            return b.color(cx, at);
+            return of(b);
         }
-        a.color(cx, at) * (1.0 - share) + b.color(cx, at) * share
-    }
-    /// The same of numbers.
-    fn blend_floats(cx: &ShadeCx<'_>, at: &TextureAt, (a, b): (Self, Self), share: f32) -> f32 {
-        if share == 0.0 {
-            return a.float(cx, at);
-        }
-        if share == 1.0 {
-            return b.float(cx, at);
-        }
-        a.float(cx, at) * (1.0 - share) + b.float(cx, at) * share
+        of(a) * (1.0 - share) + of(b) * share
     }
 }
 
@@ -53,13 +52,16 @@ impl Value for ColorInput {
     fn read(args: &mut Args<'_>, name: &str) -> Self {
         args.color_input(name)
     }
-    fn color(self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
+    fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
         cx.color(self, at)
     }
-    fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+    fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
         cx.color(self, at).luminance()
     }
-    fn largest(self, cx: &ShadeCx<'_>) -> f32 {
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        cx.weight(self, at, |v| v.max(0.0))
+    }
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
         cx.largest_color(self)
     }
 }
@@ -71,13 +73,16 @@ impl Value for FloatInput {
     fn read(args: &mut Args<'_>, name: &str) -> Self {
         args.float_input(name)
     }
-    fn color(self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        Color::gray(cx.float(self, at))
+    fn color(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
+        Color::gray(cx.float(*self, at))
     }
-    fn float(self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
-        cx.float(self, at)
+    fn float(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> f32 {
+        cx.float(*self, at)
     }
-    fn largest(self, cx: &ShadeCx<'_>) -> f32 {
-        cx.largest_float(self)
+    fn weight(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        Spectrum::splat(cx.float(*self, at))
+    }
+    fn largest(&self, cx: &ShadeCx<'_>) -> f32 {
+        cx.largest_float(*self)
     }
 }

@@ -114,8 +114,8 @@ fn brushed_metal_reflects_more_along_the_brush_and_bodies_have_a_medium() {
     let glass = glass.rgb("attenuationcolor", [0.25, 1.0, 1.0]).float("attenuationdistance", 2.0);
     let glass = built("principled", glass).expect("sound");
     let medium = glass.medium().expect("a body");
-    assert_eq!(medium.eta, 1.4);
-    let left = Basis::Rgb.to_rgb(medium.transmittance(Basis::Rgb, 2.0));
+    assert_eq!(medium.eta_d, 1.4);
+    let left = Basis::Rgb.to_rgb(medium.transmittance(&Basis::Rgb, 2.0));
     assert!((left[0] - 0.25).abs() < 1e-6 && left[1] == 1.0, "{left:?}");
     assert!(!glass.is_passed() && built("principled", Params::new()).expect("sound").medium().is_none());
 }

@@ -1,5 +1,6 @@
 //! Area lights: densities that integrate to 1, samples that follow them, irradiance in closed form.
 mod lamps;
+mod particles;
 
 use std::{
     f64::consts::{PI, TAU},

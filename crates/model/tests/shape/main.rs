@@ -1,5 +1,6 @@
 //! Shapes: hits, error bounds, silhouettes, self-intersection.
 mod bilinear;
+mod cylinder;
 mod flat;
 mod loopsubdiv;
 mod mesh;

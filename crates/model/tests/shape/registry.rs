@@ -31,6 +31,10 @@ fn samples(kind: &str) -> Vec<Params> {
             Params::new(),
             Params::new().float("radius", 0.7).float("zmin", -0.2).float("zmax", 0.6).float("phimax", 200.0),
         ],
+        "cylinder" => vec![
+            Params::new(),
+            Params::new().float("radius", 0.7).float("zmin", -0.2).float("zmax", 0.6).float("phimax", 200.0),
+        ],
         "disk" => vec![
             Params::new(),
             Params::new().float("height", -0.3).float("innerradius", 0.4).float("phimax", 90.0),

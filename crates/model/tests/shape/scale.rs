@@ -5,7 +5,7 @@ use durer_core::{
 };
 use durer_model::{
     Surface,
-    shape::{Disk, Patch, Plane, Polygon, Shape, Sphere, mesh_surface, polygon::FillRule},
+    shape::{Cylinder, Disk, Patch, Plane, Polygon, Shape, Sphere, mesh_surface, polygon::FillRule},
 };
 use durer_scene::Mesh;
 use durer_testkit::random::Random;
@@ -74,6 +74,8 @@ fn grazing_rays_never_meet_the_surface_they_leave() {
     sweep("flat patch", &Patch::new(flat), 1.0, false);
     sweep("plane", &Plane::new(Point3::new(0.1, 0.2, 0.3), Vector3::new(0.3, 1.0, -0.2), 1.0), 1.0, false);
     sweep("sphere", &Sphere::new(1.0), 1.0, true);
+    // So long that no ray leaves by its ends.
+    sweep("cylinder", &Cylinder::new(1.0, -1e6, 1e6, 360.0), 1.0, true);
     for size in SCALES.map(|e| 10f64.powi(e)) {
         sweep("sphere of its own size", &Sphere::new(size as f32), size, true);
     }

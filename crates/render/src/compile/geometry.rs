@@ -1,7 +1,7 @@
 //! Shapes into the kernel: still meshes used once are moved to where they stand, the rest become instances.
 use std::{
     collections::{HashMap, hash_map::Entry},
-    sync::Arc,
+    sync::{Arc, OnceLock},
     time::{Duration, Instant},
 };
 
@@ -44,9 +44,13 @@ pub(super) struct Placed {
     pub(super) shapes: Arc<[PlacedShape]>,
     pub(super) movers: Arc<[PlacedShape]>,
     /// How each of the objects is seen.
-    seen: Arc<[Visibility]>,
+    pub(super) seen: Arc<[Visibility]>,
+    /// What the kernel holds of meshes, in the order of their instances.
+    pub(super) held: Arc<[Held]>,
     /// Heap memory of the copies of meshes that were moved to where they stand.
     pub(super) placed_mesh_bytes: u64,
+    /// What a ray costs in the trees as they were built; looked at when it is asked for first.
+    pub(super) cost: OnceLock<f64>,
     /// What the trees took.
     pub(super) building: Duration,
 }
@@ -62,22 +66,54 @@ pub(super) struct Placing<'a> {
     pub(super) accel: BuildOptions,
 }
 
+/// What was placed earlier.
+#[derive(Clone, Copy)]
+pub(super) enum Earlier<'k> {
+    /// Nothing that could be used.
+    None,
+    /// The same shapes.
+    Same(&'k Placed),
+    /// The scene at another moment.
+    Moment(&'k Placed),
+}
+
+/// A mesh in the kernel.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    pub(super) object: Id<Object>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) motion: Motion,
+    pub(super) geometry: GeometryId,
+    pub(super) instance: u32,
+    /// Moved to where it stands.
+    pub(super) is_baked: bool,
+}
+
 /// A mesh on its way into the kernel.
-struct PendingMesh {
-    object: Id<Object>,
-    mesh: Arc<Mesh>,
-    motion: Motion,
+pub(super) struct PendingMesh {
+    pub(super) object: Id<Object>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) motion: Motion,
     /// Several shapes use the mesh.
     shared: bool,
+    /// It is elsewhere at other moments.
+    apart: bool,
+}
+
+impl PendingMesh {
+    /// Whether it is moved to where it stands.
+    pub(super) fn is_baked(&self) -> bool {
+        !self.shared && !self.apart && self.mesh.is_still() && self.motion.is_still()
+    }
 }
 
 /// What the shapes of a description become on their way into the kernel.
 #[derive(Default)]
-struct Pending {
-    meshes: Vec<PendingMesh>,
-    shapes: Vec<PlacedShape>,
-    movers: Vec<(PlacedShape, Motion)>,
-    strands: Vec<(Id<Object>, Arc<Strands>, Motion)>,
+pub(super) struct Pending {
+    pub(super) meshes: Vec<PendingMesh>,
+    pub(super) shapes: Vec<PlacedShape>,
+    pub(super) movers: Vec<(PlacedShape, Motion)>,
+    pub(super) strands: Vec<(Id<Object>, Arc<Strands>, Motion)>,
 }
 
 impl Pending {
@@ -141,17 +177,19 @@ pub(super) fn world_bounds(desc: &SceneDesc, shapes: &[Option<Geometry>]) -> Bou
 
 impl Placing<'_> {
     /// Places all shapes and builds the kernel; `None` if there was something to complain about. If all objects are seen
-    /// as they were in what is `kept`, that is used.
+    /// as they were `earlier`, that is used.
     pub(super) fn place(
         &self,
         ground: Arc<Ground>,
-        kept: Option<&Placed>,
+        earlier: Earlier<'_>,
         diagnostics: &mut Diagnostics,
     ) -> Option<Placed> {
         let objects: Arc<[Object]> =
             self.desc.shapes.iter().enumerate().map(|(index, shape)| self.object(shape, index)).collect();
         let seen: Arc<[Visibility]> = objects.iter().map(|object| self.seen(object)).collect();
-        if let Some(kept) = kept.filter(|kept| kept.seen == seen) {
+        if let Earlier::Same(kept) = earlier
+            && kept.seen == seen
+        {
             return Some(Placed { objects, building: Duration::ZERO, ..kept.clone() });
         }
         let geometry = Arc::try_unwrap(ground).map_or_else(|shared| shared.built.clone(), |own| own.built);
@@ -174,7 +212,8 @@ impl Placing<'_> {
             match geometry {
                 Some(Geometry::Mesh(mesh)) => {
                     let shared = uses.get(&Arc::as_ptr(&mesh)).is_some_and(|&n| n > 1);
-                    pending.meshes.push(PendingMesh { object, mesh, motion, shared });
+                    let apart = self.desc.apart.contains(&index);
+                    pending.meshes.push(PendingMesh { object, mesh, motion, shared, apart });
                 }
                 Some(Geometry::Shapes(parts)) => {
                     let parts = (0..).zip(parts);
@@ -183,6 +222,12 @@ impl Placing<'_> {
                 Some(Geometry::Strands(strands)) => pending.strands.push((object, strands, motion)),
                 None => {}
             }
+        }
+        if let Earlier::Moment(kept) = earlier
+            && kept.seen == seen
+            && let Some(moved) = kept.moved(&pending)
+        {
+            return Some(Placed { objects, ..moved });
         }
         match self.build(pending, (objects, seen)) {
             Ok(placed) => Some(placed),
@@ -217,8 +262,7 @@ impl Placing<'_> {
         (objects, all_seen): (Arc<[Object]>, Arc<[Visibility]>),
     ) -> Result<Placed, String> {
         let Pending { meshes, shapes, movers, strands } = pending;
-        let (single, several): (Vec<_>, Vec<_>) =
-            meshes.into_iter().partition(|m| !m.shared && m.mesh.is_still() && m.motion.is_still());
+        let (single, several): (Vec<_>, Vec<_>) = meshes.into_iter().partition(PendingMesh::is_baked);
         let baked = bake(single);
         let placed_mesh_bytes = baked.iter().map(|(_, mesh)| mesh_bytes(mesh)).sum();
         let seen = |object: Id<Object>| all_seen[object.index()];
@@ -231,11 +275,16 @@ impl Placing<'_> {
         let start = Instant::now();
         let mut kernel = AccelBuilder::new(self.accel);
         let mut targets = Vec::new();
-        for (object, mesh) in &baked {
+        let mut held = Vec::new();
+        for (PendingMesh { object, mesh: source, motion, .. }, mesh) in &baked {
             let geometry = kernel.borrowed_triangles(&mesh.positions, &mesh.indices);
             let geometry = geometry.map_err(about(*object))?;
-            kernel.instance_seen(geometry, Placement::Identity, seen(*object)).map_err(about(*object))?;
-            targets.push(Target::Baked(*object, Arc::clone(mesh)));
+            let instance = kernel.instance_seen(geometry, Placement::Identity, seen(*object));
+            let (object, mesh) = (*object, Arc::clone(mesh));
+            let (source, motion) = (Arc::clone(source), motion.clone());
+            let instance = instance.map_err(about(object))?;
+            held.push(Held { object, mesh: source, motion, geometry, instance, is_baked: true });
+            targets.push(Target::Baked(object, mesh));
         }
         if !shapes.is_empty() {
             let bounds = shapes.iter().map(|s| s.render_from_object.bounds(&s.shape.bounds()));
@@ -253,7 +302,7 @@ impl Placing<'_> {
             targets.push(Target::Mover(index as u32));
         }
         let mut known: HashMap<*const Mesh, GeometryId> = HashMap::new();
-        for PendingMesh { object, mesh, motion, .. } in &several {
+        for PendingMesh { object, mesh, motion, apart, .. } in &several {
             let geometry = match known.entry(Arc::as_ptr(mesh)) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
@@ -261,9 +310,15 @@ impl Placing<'_> {
                     *new.insert(kernel.keyed_triangles(&mesh.indices, keys).map_err(about(*object))?)
                 }
             };
+            if *apart {
+                kernel.keep_apart(geometry).map_err(about(*object))?;
+            }
             let placement = Placement::from_motion(motion);
-            kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
-            targets.push(Target::Mesh(*object, Arc::clone(mesh)));
+            let instance =
+                kernel.instance_seen(geometry, placement, seen(*object)).map_err(about(*object))?;
+            let (object, mesh, motion) = (*object, Arc::clone(mesh), motion.clone());
+            targets.push(Target::Mesh(object, Arc::clone(&mesh)));
+            held.push(Held { object, mesh, motion, geometry, instance, is_baked: false });
         }
         for strand in strands::gathered(strands) {
             let name = |error: BuildError| format!("{}: {error}", objects[strand.objects[0].index()].name);
@@ -275,9 +330,10 @@ impl Placing<'_> {
         }
         let accel = Arc::new(kernel.build().map_err(whole)?);
         let building = start.elapsed();
-        let (targets, shapes) = (targets.into(), shapes.into());
-        let movers = movers.into_iter().map(|(mover, _)| mover).collect();
-        Ok(Placed { accel, objects, targets, shapes, movers, seen: all_seen, placed_mesh_bytes, building })
+        let (targets, shapes, held) = (targets.into(), shapes.into(), held.into());
+        let (movers, seen) = (movers.into_iter().map(|(mover, _)| mover).collect(), all_seen);
+        let cost = OnceLock::new();
+        Ok(Placed { accel, objects, targets, shapes, movers, seen, held, cost, placed_mesh_bytes, building })
     }
 
     /// How the triangles of an object are seen.
@@ -304,8 +360,11 @@ fn shape_seen(seen: Visibility) -> Visibility {
 }
 
 /// Still meshes in render space; those without triangles are left out.
-fn bake(meshes: Vec<PendingMesh>) -> Vec<(Id<Object>, Arc<Mesh>)> {
-    let bake = |m: PendingMesh| (m.object, Arc::new(baked(&m.mesh, &m.motion.at(0.0))));
+fn bake(meshes: Vec<PendingMesh>) -> Vec<(PendingMesh, Arc<Mesh>)> {
+    let bake = |m: PendingMesh| {
+        let mesh = Arc::new(baked(&m.mesh, &m.motion.at(0.0)));
+        (m, mesh)
+    };
     meshes.into_par_iter().filter(|m| !m.mesh.indices.is_empty()).map(bake).collect()
 }
 
@@ -318,7 +377,7 @@ fn at(shape: &ShapeDesc) -> Location {
 
 /// The mesh in render space, each coordinate rounded once. A mirroring turns the triangles, so that counter-clockwise
 /// still means outside.
-fn baked(mesh: &Mesh, m: &DAffine3) -> Mesh {
+pub(super) fn baked(mesh: &Mesh, m: &DAffine3) -> Mesh {
     let transform = Transform::from_f64(m);
     let mirrored = transform.swaps_handedness();
     let tangent = |t: &[f32; 4]| {

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use durer_core::{
     glam::DVec3,
-    math::{Bounds3, Motion},
+    math::{Bounds3, Motion, Point3},
 };
-use durer_model::{shape::Geometry, texture::Texture};
-use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc};
+use durer_model::{light::Extent, shape::Geometry, texture::Texture};
+use durer_scene::{Assets, CameraDesc, Diagnostics, LightDesc, SceneDesc, TextureDesc};
 
 use super::{Before, CompileOptions, GeometryCounts, camera, compiled, geometry, nodes};
 use crate::{Scene, media};
@@ -38,9 +38,13 @@ impl Ground {
         Self { counts: GeometryCounts::of(desc, &built), bounds, moves, built }
     }
 
-    /// Half the diagonal of the bounds, in metres; 1 if there is nothing finite.
-    pub(super) fn radius(&self) -> f32 {
-        if self.bounds.is_empty() { 1.0 } else { 0.5 * self.bounds.diagonal().length() }
+    /// A ball around the bounds, in a space that begins at `origin`; of a radius of 1 m if there is nothing finite.
+    pub(super) fn extent(&self, origin: DVec3) -> Extent {
+        if self.bounds.is_empty() {
+            return Extent { center: Point3::from_f64(-origin), radius: 1.0 };
+        }
+        let center = Point3::from_f64(self.bounds.center().to_f64() - origin);
+        Extent { center, radius: 0.5 * self.bounds.diagonal().length() }
     }
 }
 
@@ -59,6 +63,8 @@ pub struct Kept {
     pub(super) ground: Arc<Ground>,
     pub(super) placed: geometry::Placed,
     pub(super) textures: Arc<[Box<dyn Texture>]>,
+    /// How these were described.
+    pub(super) described: Arc<[TextureDesc]>,
 }
 
 impl Kept {
@@ -82,6 +88,19 @@ impl Kept {
         diagnostics: &mut Diagnostics,
     ) -> Option<(Scene, Self)> {
         let (scene, kept) = compiled(desc, (assets, options), Before::Kept(self), diagnostics)?;
+        Some((scene, kept?))
+    }
+
+    /// Compiles what the scene has become at another moment of an animation. What is where it was and as it was is used again,
+    /// as are textures if they are described as before; hits are those of a first compilation, bit for bit, if the
+    /// description says where render space has its origin. `None` if `diagnostics` got an error.
+    pub fn moved(
+        &self,
+        desc: &SceneDesc,
+        (assets, options): (&dyn Assets, &CompileOptions),
+        diagnostics: &mut Diagnostics,
+    ) -> Option<(Scene, Self)> {
+        let (scene, kept) = compiled(desc, (assets, options), Before::Moment(self), diagnostics)?;
         Some((scene, kept?))
     }
 

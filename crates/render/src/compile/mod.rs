@@ -9,6 +9,7 @@ mod camera;
 mod geometry;
 mod kept;
 mod lights;
+mod moved;
 mod nodes;
 mod report;
 mod strands;
@@ -21,15 +22,16 @@ use std::{
 use durer_accel::BuildOptions;
 use durer_core::{glam::DAffine3, math::Interval};
 use durer_model::{
-    light::Light,
+    light::{Extent, Light},
     material::Material,
     texture::{Filters, Texture},
 };
-use durer_scene::{Assets, Diagnostics, Missing, Node, SceneDesc};
+use durer_scene::{Assets, CameraDesc, Diagnostics, Missing, Node, SceneDesc};
 
 use crate::{Media, MediumStack, Scene, View, integrator::NOT_YET, light_sampler::LightChooser, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
+use geometry::Earlier;
 use kept::Ground;
 pub use kept::Kept;
 pub use nodes::integrator;
@@ -89,14 +91,16 @@ enum Before<'k> {
     Gone,
     /// This is the first time.
     Nothing,
-    /// This is kept.
+    /// This is kept, and shapes, meshes and textures are as they were.
     Kept(&'k Kept),
+    /// This is kept of another moment.
+    Moment(&'k Kept),
 }
 
 impl<'k> Before<'k> {
     fn kept(self) -> Option<&'k Kept> {
         match self {
-            Self::Kept(kept) => Some(kept),
+            Self::Kept(kept) | Self::Moment(kept) => Some(kept),
             Self::Gone | Self::Nothing => None,
         }
     }
@@ -111,16 +115,26 @@ fn compiled(
     let names = durer_scene::TextureNames::of(&desc.textures);
     let mut nodes = nodes::Builder { desc, assets, missing: options.missing, names: &names, diagnostics };
     let kept = before.kept();
-    let new_textures = |nodes: &mut nodes::Builder<'_>| kept.is_none().then(|| nodes.textures());
+    let is_described_so = |kept: &&Kept| match before {
+        Before::Moment(_) => {
+            kept.origin == desc.origin.unwrap_or(kept.origin) && *kept.described == *desc.textures
+        }
+        _ => true,
+    };
+    let known = kept.filter(is_described_so);
+    let new_textures = |nodes: &mut nodes::Builder<'_>| known.is_none().then(|| nodes.textures());
     let ((new_textures, mut materials), of_textures) =
         timed(|| (new_textures(&mut nodes), nodes.materials()));
-    let (ground, of_shapes) = timed(|| match kept {
-        Some(kept) => kept.ground.clone(),
-        None => Arc::new(Ground::new(&mut nodes)),
+    let (ground, of_shapes) = timed(|| match before {
+        Before::Kept(kept) => kept.ground.clone(),
+        _ => Arc::new(Ground::new(&mut nodes)),
     });
-    let camera = camera::chosen(desc, options, nodes.diagnostics)
-        .unwrap_or_else(|| automatic::camera(ground.bounds, options, nodes.diagnostics));
-    let origin = kept.map(|kept| kept.origin);
+    let camera = camera::chosen(desc, options, nodes.diagnostics).unwrap_or_else(|| {
+        automatic::camera(desc.extent.unwrap_or(ground.bounds), options, nodes.diagnostics)
+    });
+    let first_place =
+        |camera: &CameraDesc| camera.world_from_camera.keys().first().map(|(_, m)| m.translation);
+    let origin = kept.map(|kept| kept.origin).or(desc.origin).or_else(|| first_place(&camera));
     let moves = ground.moves || desc.lights.iter().any(|l| !l.world_from_light.is_still());
     let view = camera::view(&mut nodes, &options.lens.given_to(camera.clone()), options, (moves, origin));
     let shutter = view.as_ref().map_or(Interval::point(options.time), |view| view.shutter.interval());
@@ -128,7 +142,7 @@ fn compiled(
     let origin = origin.unwrap_or(world_from_camera.translation);
     let all_lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
-    let textures = match (kept, new_textures) {
+    let textures = match (known, new_textures) {
         (Some(kept), _) => Arc::clone(&kept.textures),
         (None, built) => placed(built.unwrap_or_default(), desc, &render_from_world),
     };
@@ -145,24 +159,31 @@ fn compiled(
         materials: &materials,
         accel: options.accel,
     };
-    let (counts, radius) = (ground.counts, ground.radius());
+    let (counts, extent) = (ground.counts, ground.extent(origin));
     // Where nothing is kept, meshes are let go one by one while copies of them are placed.
     let shared = (!matches!(before, Before::Gone)).then(|| Arc::clone(&ground));
-    let (placed, of_placing) = timed(|| placing.place(ground, kept.map(|kept| &kept.placed), diagnostics));
+    let earlier = match before {
+        Before::Gone | Before::Nothing => Earlier::None,
+        Before::Kept(kept) => Earlier::Same(&kept.placed),
+        Before::Moment(kept) => Earlier::Moment(&kept.placed),
+    };
+    let (placed, of_placing) = timed(|| placing.place(ground, earlier, diagnostics));
     let (view, placed) = (view?, placed?);
     let mut report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
     report.texture_bytes = textures.iter().map(|texture| texture.bytes()).sum();
     if diagnostics.has_errors() {
         return None;
     }
-    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, radius };
+    let made = Made { textures, materials, lights, placed: placed.clone(), view, report, extent };
     let mut scene = made.scene(desc);
     let pixel_scale = camera::pixel_scale(desc, options);
     camera::focus(&mut scene, pixel_scale, camera.node.at.clone(), diagnostics)?;
     scene.start = media::start(&scene);
     let textures = Arc::clone(&scene.textures);
-    let kept =
-        shared.map(|ground| Kept { camera, lights: all_lights, moves, origin, ground, placed, textures });
+    let kept = shared.map(|ground| {
+        let described = known.map_or_else(|| desc.textures.as_slice().into(), |k| Arc::clone(&k.described));
+        Kept { camera, lights: all_lights, moves, origin, ground, placed, textures, described }
+    });
     Some((scene, kept))
 }
 
@@ -186,20 +207,22 @@ struct Made {
     placed: geometry::Placed,
     view: View,
     report: Report,
-    /// Of everything finite, in metres.
-    radius: f32,
+    /// A ball around everything finite, in render space.
+    extent: Extent,
 }
 
 impl Made {
     /// The scene, neither focused nor told which bodies the camera is in.
     fn scene(self, desc: &SceneDesc) -> Scene {
-        let Self { textures, materials, lights, placed, view, report, radius } = self;
+        let Self { textures, materials, lights, placed, view, report, extent } = self;
         let lights::Lights { lights, names: light_names, .. } = lights;
         let those = |is: fn(&dyn Light) -> bool| {
             (0..).zip(&lights).filter(|(_, l)| is(&***l)).map(|(i, _)| i).collect()
         };
         Scene {
             brightest: Default::default(),
+            emitters: Default::default(),
+            extent,
             report,
             objects: placed.objects,
             filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
@@ -209,7 +232,7 @@ impl Made {
             lamps: those(|light| !light.surrounds()),
             surroundings: those(|light| light.surrounds()),
             far: those(|light| light.surrounds() || light.is_disk()),
-            chooser: Arc::new(LightChooser::new(&lights, radius)),
+            chooser: Arc::new(LightChooser::new(&lights, extent.radius)),
             lights: lights.into(),
             light_names: light_names.into(),
             view,

@@ -5,12 +5,12 @@ use durer_model::{
     camera::{CAMERAS, Camera},
     filter::{FILTERS, Filter},
     material::{self, MATERIALS, Material},
-    shape::{self, Geometry, SHAPES},
+    shape::{Geometry, SHAPES},
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, Location, Missing, NamedNode, Node, Params, SceneDesc, ShapeDesc,
-    ShapeSource, TextureDesc, TextureNames, find,
+    Args, Assets, Diagnostics, Entry, Missing, NamedNode, Node, Params, SceneDesc, ShapeSource, TextureDesc,
+    TextureNames, find,
 };
 
 use rayon::prelude::*;
@@ -104,25 +104,17 @@ impl Builder<'_> {
     /// The geometry of each shape; `None` where it is a mesh of the description, or could not be built.
     pub(super) fn shapes(&mut self) -> Vec<Option<Geometry>> {
         let shapes = &self.desc.shapes;
-        let left_out: Vec<&Node> = shapes.iter().filter_map(not_yet).collect();
-        warn_not_yet("shape", "left out", &left_out, self.diagnostics);
-        if !shapes.is_empty() && left_out.len() == shapes.len() {
-            let message = "nothing is left to draw: none of the scene's shapes is supported yet";
-            self.diagnostics.error(Location::None, message);
-        }
         // A node that several shapes share is built once.
         let mut numbers: HashMap<*const Node, usize> = HashMap::new();
         let mut distinct: Vec<&Node> = Vec::new();
         let mut number_of = Vec::with_capacity(shapes.len());
         for shape in shapes {
             number_of.push(match &shape.source {
-                ShapeSource::Node(node) if not_yet(shape).is_none() => {
-                    Some(*numbers.entry(Arc::as_ptr(node)).or_insert_with(|| {
-                        distinct.push(node);
-                        distinct.len() - 1
-                    }))
-                }
-                ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
+                ShapeSource::Node(node) => Some(*numbers.entry(Arc::as_ptr(node)).or_insert_with(|| {
+                    distinct.push(node);
+                    distinct.len() - 1
+                })),
+                ShapeSource::Mesh(_) => None,
             });
         }
         let textures = &self.desc.textures;
@@ -141,14 +133,6 @@ impl Builder<'_> {
             Some(node) => self.build(FILTERS, "filter", node, &[]),
             None => Some(Filter::usual()),
         }
-    }
-}
-
-/// The node of a shape that pbrt knows and we do not.
-fn not_yet(shape: &ShapeDesc) -> Option<&Node> {
-    match &shape.source {
-        ShapeSource::Node(node) if shape::NOT_YET.contains(&node.kind.as_str()) => Some(node),
-        ShapeSource::Node(_) | ShapeSource::Mesh(_) => None,
     }
 }
 

@@ -28,7 +28,7 @@ pub struct Growing {
     left: Vec<Tile>,
 }
 
-/// A picture of a few pixels.
+/// A look at the whole picture by one sample in the middle of each square of so many pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sparse {
     /// Pixels per row.
@@ -37,6 +37,10 @@ pub struct Sparse {
     pub height: u32,
     /// What the film would hold of one sample in the middle of each square; `None` of data where there are none.
     pub values: Vec<Option<[f32; 3]>>,
+    /// Of the squares.
+    edge: u32,
+    /// Rows that were not looked at yet.
+    left: Vec<u32>,
 }
 
 impl Growing {
@@ -111,29 +115,66 @@ impl Growing {
     }
 }
 
-impl Job<'_> {
-    /// A look at the whole picture by one sample in the middle of each square of `edge` pixels; `None` once `cancel` is set.
-    pub fn sparse(&self, edge: u32, cancel: &AtomicBool) -> Option<Sparse> {
-        let (view, window, edge) = (&self.scene.view, self.window(), edge.max(1));
+impl Sparse {
+    /// Nothing yet of a look with squares of `edge` pixels.
+    pub fn new(job: &Job<'_>, edge: u32) -> Self {
+        let (view, edge) = (&job.scene.view, edge.max(1));
         let (width, height) = (view.width.div_ceil(edge), view.height.div_ceil(edge));
-        let rows: Vec<u32> = (0..height).collect();
-        let all = Mutex::new(vec![None; width as usize * height as usize]);
-        crew::share_out(&rows, self.settings.threads, cancel, |y, row: &mut Vec<Option<[f32; 3]>>| {
-            row.clear();
-            let (cx, mut out) = (self.cx(), Contribution::default());
-            for x in 0..width {
-                if cancel.load(Ordering::Relaxed) {
-                    return;
-                }
-                let middle = |i: u32, end: u32| (i * edge + edge / 2).min(end - 1);
-                let [px, py] = [middle(x, view.width), middle(y, view.height)];
-                let inside = (window.x0..window.x1).contains(&px) && (window.y0..window.y1).contains(&py);
-                row.push(inside.then(|| self.value_of(&cx, &self.eye([px, py], 0).0, &mut out)).flatten());
+        let values = vec![None; width as usize * height as usize];
+        Self { width, height, values, edge, left: (0..height).collect() }
+    }
+
+    /// Whether all squares were looked at.
+    pub fn is_done(&self) -> bool {
+        self.left.is_empty()
+    }
+
+    /// Looks at squares until `enough` says so, which is asked after each row by all threads, or until all are done. Of the
+    /// same job each time. Returns how many samples that took. Once `cancel` is set the look is of no use.
+    pub fn look(&mut self, job: &Job<'_>, enough: &(dyn Fn() -> bool + Sync), cancel: &AtomicBool) -> u64 {
+        let (width, edge) = (self.width, self.edge);
+        let (stop, done) = (AtomicBool::new(false), Mutex::new(Vec::new()));
+        let all = Mutex::new(&mut self.values);
+        crew::share_out(&self.left, job.settings.threads, &stop, |y, row: &mut Vec<Option<[f32; 3]>>| {
+            if !job.look_at_row(y, (width, edge), row, cancel) {
+                stop.store(true, Ordering::Relaxed);
+                return;
             }
             let start = y as usize * width as usize;
             lock(&all)[start..start + row.len()].copy_from_slice(row);
+            lock(&done).push(y);
+            if enough() {
+                stop.store(true, Ordering::Relaxed);
+            }
         });
-        let values = all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-        (!cancel.load(Ordering::Relaxed)).then_some(Sparse { width, height, values })
+        let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        done.sort_unstable();
+        self.left.retain(|y| done.binary_search(y).is_err());
+        done.len() as u64 * u64::from(width)
+    }
+}
+
+impl Job<'_> {
+    /// One sample in the middle of each square of a row of so many; false once `cancel` is set.
+    fn look_at_row(
+        &self,
+        y: u32,
+        (width, edge): (u32, u32),
+        row: &mut Vec<Option<[f32; 3]>>,
+        cancel: &AtomicBool,
+    ) -> bool {
+        row.clear();
+        let (view, window) = (&self.scene.view, self.window());
+        let mut out = Contribution::default();
+        for x in 0..width {
+            if cancel.load(Ordering::Relaxed) {
+                return false;
+            }
+            let middle = |i: u32, end: u32| (i * edge + edge / 2).min(end - 1);
+            let [px, py] = [middle(x, view.width), middle(y, view.height)];
+            let inside = (window.x0..window.x1).contains(&px) && (window.y0..window.y1).contains(&py);
+            row.push(inside.then(|| self.value_of(&self.eye([px, py], 0).0, &mut out)).flatten());
+        }
+        true
     }
 }

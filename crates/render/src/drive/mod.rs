@@ -24,11 +24,14 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use durer_core::{sampling::Sampler, spectrum::Basis};
+use durer_core::{
+    sampling::{Dim, Sampler},
+    spectrum::Carried,
+};
 
 use crate::{
     Contribution, ImbalanceTotals, SampleCx, Scene, Value,
-    film::{BLOCK, Film, Pixel, Tile},
+    film::{self, BLOCK, Film, Pixel, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
@@ -127,8 +130,10 @@ pub struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn cx(&self) -> SampleCx<'a> {
-        SampleCx { scene: self.scene, basis: Basis::Rgb }
+    /// The context of a sample of which this is the first sampler.
+    #[inline]
+    fn cx(&self, sampler: &Sampler) -> SampleCx<'a> {
+        SampleCx { scene: self.scene, basis: self.settings.carried.basis(|| sampler.d1(Dim::Lambda)) }
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
@@ -139,7 +144,14 @@ impl<'a> Job<'a> {
     }
 
     /// Traces an eye ray; what the film stores of it, `None` if it has no value, as data where nothing was hit.
-    fn value_of(&self, cx: &SampleCx<'_>, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+    fn value_of(&self, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
+        let value = self.trace(&self.cx(&eye.ray.sampler), eye, out);
+        out.splats.clear();
+        value
+    }
+
+    /// The same; what the sample has for other places of the picture stays in `out`.
+    fn trace(&self, cx: &SampleCx<'_>, eye: &Eye, out: &mut Contribution) -> Option<[f32; 3]> {
         if self.is_blocked(eye) {
             *out = Contribution::default();
             return Some([0.0; 3]);
@@ -153,9 +165,11 @@ impl<'a> Job<'a> {
         eye.gain == 0.0 && self.integrator.output() == Output::Radiance
     }
 
-    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it.
+    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
+    /// wavelengths are no colour that could be compared.
     fn adaptive(&self) -> Option<Adaptive> {
         match (self.settings.antialias, self.integrator.output()) {
+            _ if self.settings.carried == Carried::Wavelengths => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,
         }
@@ -219,14 +233,13 @@ impl<'a> Job<'a> {
             let done = self.tile(pass, tile, pixels);
             let mut shared = lock(&shared);
             shared.film.write(tile, pixels);
-            shared.take(&done);
+            shared.take(self, &done);
             drop(shared);
             finished(tile, &done);
         });
     }
 
     fn tile(&self, pass: &Pass<'_>, tile: Tile, pixels: &mut [Pixel]) -> TileDone {
-        let cx = self.cx();
         let mut done = TileDone { counters: pass.gather.counters(), ..TileDone::default() };
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
@@ -237,15 +250,35 @@ impl<'a> Job<'a> {
                 }
                 for sample in pass.samples.clone() {
                     let (eye, weight) = self.eye([x, y], sample);
+                    let cx = self.cx(&eye.ray.sampler);
                     match self.take(&cx, &eye, &mut out, &mut done) {
                         Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
                     }
+                    self.splat(&cx, &mut out, &mut done, BadSample { pixel: [x, y], sample });
                 }
             }
         }
         done
+    }
+
+    /// Takes what a sample has for other places of the picture; none of it if part of it is infinite or NaN.
+    fn splat(&self, cx: &SampleCx<'_>, out: &mut Contribution, done: &mut TileDone, bad: BadSample) {
+        // PERF: what has no splats asks for nothing (bench render).
+        if out.splats.is_empty() {
+            return;
+        }
+        if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
+            for splat in &out.splats {
+                let rgb = cx.basis.to_rgb(splat.radiance).map(|v| v * self.scene.view.speed);
+                let places = std::iter::once(splat.film).chain(self.scene.view.repeats(splat.film));
+                done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
+            }
+        } else {
+            done.bad(bad);
+        }
+        out.splats.clear();
     }
 
     /// Takes a sample and counts it.
@@ -261,7 +294,7 @@ impl<'a> Job<'a> {
                 self.integrator.count(cx, eye.ray, out, counters);
                 film_value(cx, out, eye.gain)
             }
-            _ => self.value_of(cx, eye, out),
+            _ => self.trace(cx, eye, out),
         };
         done.samples += 1;
         done.rays += out.rays;
@@ -293,6 +326,7 @@ struct TileDone {
     first_bad: Option<BadSample>,
     imbalances: ImbalanceTotals,
     splits: Option<Splits>,
+    splats: Vec<film::Splat>,
 }
 
 impl TileDone {
@@ -318,7 +352,8 @@ impl Rendered {
         }
     }
 
-    fn take(&mut self, done: &TileDone) {
+    fn take(&mut self, job: &Job<'_>, done: &TileDone) {
+        self.film.splat(done.samples, &done.splats, &job.scene.view.filter, job.window());
         self.samples += done.samples;
         self.rays += done.rays;
         self.bad_samples += done.bad_samples;

@@ -56,13 +56,12 @@ impl Job<'_> {
     }
 
     fn count_pixel(&self, pixel: [u32; 2], out: &mut Contribution) -> PartCount {
-        let cx = self.cx();
         let mut own = PartCount { pixels: 1, samples: self.settings.samples.into(), ..PartCount::default() };
         let start = Instant::now();
         for sample in 0..self.settings.samples {
             let (eye, _) = self.eye(pixel, sample);
             if !self.is_blocked(&eye) {
-                self.integrator.count(&cx, eye.ray, out, &mut own.counters);
+                self.integrator.count(&self.cx(&eye.ray.sampler), eye.ray, out, &mut own.counters);
             }
         }
         own.busy = start.elapsed();

@@ -5,8 +5,9 @@ use durer_core::{math::Point2, sampling::Dim};
 
 use super::{Job, adaptive, crew, film_value, lock, pass, pass::Eye};
 use crate::{
-    Contribution,
+    Contribution, SampleCx,
     film::Tile,
+    integrator::Particles,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
 };
 
@@ -58,14 +59,14 @@ impl Job<'_> {
                 .get(sample as usize)
                 .map(|&place| adaptive::eye(self, place)),
         };
-        let (cx, mut out) = (self.cx(), Contribution::default());
-        eye.and_then(|eye| self.value_of(&cx, &eye, &mut out)).unwrap_or([0.0; 3])
+        let mut out = Contribution::default();
+        eye.and_then(|eye| self.value_of(&eye, &mut out)).unwrap_or([0.0; 3])
     }
 
     /// Traces an eye ray through a place of the picture.
     fn watch(&self, eye: &Eye, (film, weight): (Point2, f32), detail: Detail) -> (RayTree, [f32; 3]) {
         let Eye { ray, gain } = eye;
-        let cx = self.cx();
+        let cx = self.cx(&ray.sampler);
         let mut recorder = Recorder::new(&cx, detail);
         let mut out = Contribution::default();
         self.integrator.record(&cx, *ray, &mut out, &mut recorder);
@@ -81,6 +82,9 @@ impl Job<'_> {
             let moment = pass::moment(view, nesting, &ray.sampler);
             eye.random.extend(moment.map(|u| RandomNumbers::one(Dim::Time, u)));
             eye.random.extend(lens.map(|u| RandomNumbers::two(Dim::Lens, u.to_array())));
+            if cx.basis.wavelengths().is_some() {
+                eye.random.push(RandomNumbers::one(Dim::Lambda, ray.sampler.d1(Dim::Lambda)));
+            }
         }
         tree.eye = Some(TreeEye {
             film: film.to_array(),
@@ -95,13 +99,25 @@ impl Job<'_> {
     /// The part of a tree below a node, traced again from what the node holds: its ray, sampler and bodies. Equal to that
     /// part bit for bit, with ids from 0. `None` for rays that were never traced but for limits: what is known of those is
     /// their parents'.
-    pub fn replay(&self, tree: &RayTree, node: u32) -> Option<RayTree> {
-        let node = tree.nodes.get(node as usize)?;
+    pub fn replay(&self, tree: &RayTree, id: u32) -> Option<RayTree> {
+        let node = tree.nodes.get(id as usize)?;
         if !node.is_traced() && node.limit.is_none() {
             return None;
         }
-        let cx = self.cx();
+        let cx = SampleCx { scene: self.scene, basis: tree.basis };
         let mut recorder = Recorder::new(&cx, Detail::default());
+        if self.integrator.particles() != Particles::None {
+            // What a ray brings depends on all of the two walks.
+            let mut out = Contribution::default();
+            self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);
+            let gain = tree.eye.map_or(1.0, |eye| eye.gain);
+            let value = film_value(&cx, &out, gain).unwrap_or([0.0; 3]);
+            let mut again = recorder.finish(&value).below(id);
+            if let Some(first) = again.nodes.first_mut() {
+                first.random.clone_from(&node.random);
+            }
+            return Some(again);
+        }
         if let Some(choice) = &node.chosen {
             recorder.chose(choice);
         }
@@ -143,7 +159,7 @@ impl Job<'_> {
         let (mut sum, mut largest) = ([0.0; 3], 0.0f32);
         for sample in 0..samples {
             let (tree, _) = self.record(pixel, sample);
-            let killed = self.cx().basis.to_rgb(tree.killed());
+            let killed = tree.basis.under_white(tree.killed());
             sum.iter_mut().zip(killed).for_each(|(sum, v)| *sum += v);
             largest = largest.max(tree.max_radiance());
         }

@@ -1,5 +1,5 @@
 //! How a picture is taken.
-use durer_core::sampling::SamplerKind;
+use durer_core::{sampling::SamplerKind, spectrum::Carried};
 
 use super::Antialias;
 use crate::film::Tile;
@@ -21,6 +21,8 @@ pub struct Settings {
     pub crop: Option<Tile>,
     /// Where the samples of a pixel lie.
     pub antialias: Antialias,
+    /// Whether rays carry colours or wavelengths.
+    pub carried: Carried,
 }
 
 /// How many samples share a place and a moment. Of the `A T L` samples of a pixel `T L` in sequence go through each of its
@@ -58,6 +60,7 @@ impl Default for Settings {
             threads: 1,
             crop: None,
             antialias: Antialias::Supersample,
+            carried: Carried::Rgb,
         }
     }
 }

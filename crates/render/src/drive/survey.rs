@@ -64,7 +64,7 @@ impl Job<'_> {
         let mut done = TileDone { counters: gather.counters(), ..TileDone::default() };
         Taken {
             sample,
-            rgb: self.take(&self.cx(), &eye, &mut Contribution::default(), &mut done),
+            rgb: self.take(&self.cx(&eye.ray.sampler), &eye, &mut Contribution::default(), &mut done),
             weight,
             film: [film.x, film.y],
             lens: lens.map(|u| view.on_lens(film, u)),
@@ -146,7 +146,6 @@ impl Job<'_> {
     fn quarters(&self, small: [u32; 2], size: [u32; 2]) -> Option<[f32; 3]> {
         let view = &self.scene.view;
         let full = [view.width, view.height];
-        let cx = self.cx();
         let mut out = Contribution::default();
         let mut found = Vec::new();
         for [dx, dy] in [[1, 1], [3, 1], [1, 3], [3, 3]] {
@@ -155,14 +154,14 @@ impl Job<'_> {
                 (place as u32).min(full[i] - 1)
             };
             let (eye, _) = self.eye([at(0, dx), at(1, dy)], 0);
-            found.extend(self.value_of(&cx, &eye, &mut out));
+            found.extend(self.value_of(&eye, &mut out));
         }
         let n = found.len() as f32;
         match self.integrator.output() {
             Output::Radiance => {
                 (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n))
             }
-            Output::Data(_) => found.first().copied(),
+            Output::Data(_) | Output::Survey(_) => found.first().copied(),
         }
     }
 }

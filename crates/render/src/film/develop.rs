@@ -9,7 +9,7 @@
 use durer_core::math::float::pow;
 
 use super::ToneMap;
-use crate::integrator::Show;
+use crate::integrator::{Show, Survey};
 
 #[cfg(test)]
 mod tests;
@@ -111,9 +111,10 @@ pub fn develop(width: u32, height: u32, rgb: &[[f32; 3]], exposure_ev: f32, tone
 /// If `data` does not have `width * height` entries.
 pub fn develop_data(show: Show, width: u32, height: u32, data: &[Option<[f32; 3]>]) -> DataPicture {
     let depth = if show == Show::Depth { DepthRange::of(data) } else { None };
-    let white = if show == Show::Cost { nearly_most(data) } else { 0.0 };
+    let tests = |v: &[f32; 3]| v[0] + v[1];
+    let white = if show == Show::Cost { nearly_most(data, tests).max(1.0) } else { 0.0 };
     let pixel = |v: [f32; 3]| match show {
-        Show::Cost => heat((v[0] + v[1]) / white),
+        Show::Cost => heat(tests(&v) / white),
         Show::Depth => [depth.map_or(0, |range| range.level(v[0])); 3],
         Show::Normal => v.map(|n| unit8(0.5 * n + 0.5)),
         Show::Uv => [unit8(v[0] - v[0].floor()), unit8(v[1] - v[1].floor()), 0],
@@ -122,6 +123,22 @@ pub fn develop_data(show: Show, width: u32, height: u32, data: &[Option<[f32; 3]
     };
     let picture = Developed::new(width, height, data.iter().map(|v| v.map_or([0; 3], pixel)));
     DataPicture { picture, depth, white_tests: (show == Show::Cost).then_some(white) }
+}
+
+/// Develops what samples are like, from nothing (black) to nearly the most (white) in the colours of heat; with the number of
+/// a white pixel.
+///
+/// # Panics
+/// If `data` does not have `width * height` entries.
+pub fn develop_survey(
+    survey: Survey,
+    width: u32,
+    height: u32,
+    data: &[Option<[f32; 3]>],
+) -> (Developed, f32) {
+    let white = nearly_most(data, |v| survey.number(*v));
+    let shade = |v: [f32; 3]| if white > 0.0 { heat(survey.number(v) / white) } else { heat(0.0) };
+    (Developed::new(width, height, data.iter().map(|v| v.map_or([0; 3], shade))), white)
 }
 
 /// `[0, 1]` to 0..=255, without a curve; NaN gives 0.
@@ -145,12 +162,12 @@ fn id_colour(id: u32) -> [u8; 3] {
     })
 }
 
-/// The tests that one pixel in 200 exceeds: a few rays along edges would make all others dark. At least 1.
-fn nearly_most(data: &[Option<[f32; 3]>]) -> f32 {
-    let mut tests: Vec<f32> = data.iter().flatten().map(|d| d[0] + d[1]).collect();
-    tests.sort_by(f32::total_cmp);
-    let rank = tests.len().saturating_sub(1 + tests.len() / 200);
-    tests.get(rank).map_or(1.0, |most| most.max(1.0))
+/// The number that one pixel in 200 exceeds: a few rays along edges would make all others dark. 0 if there is none.
+fn nearly_most(data: &[Option<[f32; 3]>], number: impl Fn(&[f32; 3]) -> f32) -> f32 {
+    let mut numbers: Vec<f32> = data.iter().flatten().map(number).collect();
+    numbers.sort_by(f32::total_cmp);
+    let rank = numbers.len().saturating_sub(1 + numbers.len() / 200);
+    numbers.get(rank).copied().unwrap_or(0.0)
 }
 
 /// A colour of heat for `[0, 1]`: lighter is always more, so that it can be read without colours too.

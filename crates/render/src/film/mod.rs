@@ -2,15 +2,20 @@
 //!
 //! Samples of a pixel are grouped in blocks of [`BLOCK`]. Inside a block: sequential f32. Above: a fixed binary tree,
 //! split at the largest power of two, kept as a binary counter of whole films. Every shard of a render is one node of
-//! that tree, so that any order of merging along the tree is the same arithmetic.
+//! that tree, so that any order of merging along the tree is the same arithmetic. Splats have a plane of their own.
 
 mod develop;
+mod splats;
 mod tile;
 mod tonemap;
 
-pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data};
+pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data, develop_survey};
+pub use splats::Splat;
 pub use tile::Tile;
 pub use tonemap::ToneMap;
+
+use durer_model::filter::Filter;
+use splats::Splats;
 
 /// Samples per block.
 pub const BLOCK: u32 = 64;
@@ -54,13 +59,17 @@ pub struct Film {
     finished: Vec<(u32, Vec<Pixel>)>,
     /// The block being filled.
     current: Vec<Pixel>,
+    /// What samples added to pixels that are not theirs, if any did.
+    splats: Option<Box<Splats>>,
+    /// Samples taken of all pixels.
+    samples: u64,
 }
 
 impl Film {
     /// An empty film.
     pub fn new(width: u32, height: u32) -> Self {
         let current = vec![Pixel::default(); width as usize * height as usize];
-        Self { width, height, finished: Vec::new(), current }
+        Self { width, height, finished: Vec::new(), current, splats: None, samples: 0 }
     }
 
     /// The sums of the block being filled, inside a tile, row by row.
@@ -97,6 +106,29 @@ impl Film {
         self.finished.push(node);
     }
 
+    /// Notes that so many samples were taken, and what they add to pixels of `window` by the filter.
+    pub fn splat(&mut self, samples: u64, splats: &[Splat], filter: &Filter, window: Tile) {
+        self.samples += samples;
+        if splats.is_empty() {
+            return;
+        }
+        let (width, height) = (self.width, self.height);
+        let plane = self.splats.get_or_insert_with(|| Box::new(Splats::new(width, height)));
+        splats.iter().for_each(|splat| plane.add(splat, filter, window));
+    }
+
+    /// Adds to the sum of a pixel what splats brought.
+    fn with_splats(&self, index: usize, pixel: Pixel) -> Pixel {
+        let Some(splats) = &self.splats else { return pixel };
+        let brought = splats.of(index, self.samples);
+        if pixel.weight == 0.0 && brought == [0.0; 3] {
+            return pixel;
+        }
+        // Who has no samples of its own shows what others brought.
+        let weight = if pixel.weight == 0.0 { 1.0 } else { pixel.weight };
+        Pixel { sum: std::array::from_fn(|i| pixel.sum[i] + weight * brought[i]), weight }
+    }
+
     /// The sum so far of one pixel; `None` if it lies outside.
     pub fn pixel(&self, x: u32, y: u32) -> Option<Pixel> {
         let inside = x < self.width && y < self.height;
@@ -105,7 +137,7 @@ impl Film {
         for (_, pixels) in self.finished.iter().rev() {
             all = pixels[index].merged(&all);
         }
-        Some(all)
+        Some(self.with_splats(index, all))
     }
 
     /// The sums so far.
@@ -113,6 +145,9 @@ impl Film {
         let mut all = self.current.clone();
         for (_, pixels) in self.finished.iter().rev() {
             all = merge(pixels, &all);
+        }
+        if self.splats.is_some() {
+            all.iter_mut().enumerate().for_each(|(index, pixel)| *pixel = self.with_splats(index, *pixel));
         }
         all
     }

@@ -94,7 +94,7 @@ impl AmbientOcclusion {
                 }
             }
             None => {
-                let sky = if kind == RayKind::Eye { Spectrum::BLACK } else { Spectrum::ONE };
+                let sky = if kind == RayKind::Eye { Spectrum::BLACK } else { cx.basis.white() };
                 probe.local(id, sky);
                 probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
                 (sky, 0)

@@ -162,7 +162,7 @@ impl Cast {
             Show::Normal => data(s.surface.n_s.face_forward(s.wo).to_array()),
             Show::Uv => data([s.surface.uv.x, s.surface.uv.y, 0.0]),
             Show::Id => data([s.object.index() as f32 + 1.0, 0.0, 0.0]),
-            Show::Albedo => Value::Radiance(s.bsdf.albedo()),
+            Show::Albedo => Value::Radiance(s.bsdf.albedo() * cx.basis.white()),
             Show::Cost => Value::Data(None),
             Show::Shading => {
                 let mut radiance = s.sent_out() + s.ambient(cx) + s.blurred_sky(cx);

@@ -4,25 +4,32 @@
 //! comes from a blanket impl. A new integrator is one file here and one line in [`INTEGRATORS`].
 
 mod ambient_occlusion;
+mod bdpt;
 mod cast;
 mod distributed;
+mod light_tracing;
 mod path;
 mod shading;
+mod survey;
+mod vertices;
 mod walk;
 mod whitted;
 
 use durer_model::material::GlossRays;
-use durer_scene::Entry;
+use durer_scene::{Entry, ParamDefault, ParamSpec, ParamType};
 
 use crate::{
-    Contribution, PathRay, SampleCx,
+    Contribution, LightSampler, PathRay, SampleCx,
     probe::{Counters, NoProbe, Probe, Recorder, TreeNode},
 };
 
 pub use ambient_occlusion::AmbientOcclusion;
+pub use bdpt::Bidirectional;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
+pub use light_tracing::LightTracing;
 pub use path::{Direct, Path};
+pub use survey::{Survey, Surveyed};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
 
@@ -33,6 +40,8 @@ pub enum Output {
     Radiance,
     /// Numbers for the eye: see [`Show`].
     Data(Show),
+    /// What samples of light are like: see [`Survey`].
+    Survey(Survey),
 }
 
 /// The eye rays of a pixel.
@@ -44,6 +53,18 @@ pub struct EyeSamples {
     pub time: u32,
     /// Points of the lens for each moment; 0: its centre always.
     pub lens: u32,
+}
+
+/// What particles from the lights are to an integrator.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Particles {
+    /// It sends none.
+    #[default]
+    None,
+    /// One way to find light among others.
+    Some,
+    /// All light comes by them.
+    All,
 }
 
 /// What is traced.
@@ -73,6 +94,10 @@ pub trait Transport: Send + Sync {
     fn bounded(&self) -> Option<GlossRays> {
         None
     }
+    /// What particles are to it.
+    fn particles(&self) -> Particles {
+        Particles::None
+    }
     /// Traces a ray and all it spawns; leaves what arrives in `out`.
     fn trace<P: Probe>(
         &self,
@@ -84,7 +109,7 @@ pub trait Transport: Send + Sync {
     );
 }
 
-/// Light transport as the driver holds it; nobody implements it by hand.
+/// Light transport as the driver holds it; nobody implements it by hand, but for [`Surveyed`].
 pub trait Integrator: Send + Sync {
     /// What the samples mean.
     fn output(&self) -> Output;
@@ -94,6 +119,8 @@ pub trait Integrator: Send + Sync {
     fn depth_limit(&self) -> Option<u32>;
     /// [`Transport::bounded`].
     fn bounded(&self) -> Option<GlossRays>;
+    /// [`Transport::particles`].
+    fn particles(&self) -> Particles;
     /// [`Transport::trace`] of an eye ray, unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::trace`] of an eye ray, recorded.
@@ -116,6 +143,9 @@ impl<T: Transport> Integrator for T {
     }
     fn bounded(&self) -> Option<GlossRays> {
         Transport::bounded(self)
+    }
+    fn particles(&self) -> Particles {
+        Transport::particles(self)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.trace(cx, Start::Eye(ray), (), &mut NoProbe, out);
@@ -143,13 +173,40 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Distributed>(),
     Entry::of::<Path>(),
     Entry::of::<Direct>(),
+    Entry::of::<LightTracing>(),
+    Entry::of::<Bidirectional>(),
     Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
 ];
 
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
-pub const PATHS: &[&str] = &["path", "direct"];
+pub const PATHS: &[&str] = &["path", "direct", "light", "bdpt"];
+
+/// Bounces of those.
+const PATH_DEPTH: ParamSpec = ParamSpec::new(
+    "maxdepth",
+    ParamType::Int,
+    ParamDefault::Int(8),
+    "Bounces at most; 1 is direct light. 5 where a pbrt file is silent, as in pbrt-v4.",
+)
+.range(0.0, 10_000.0);
+
+/// How they choose a light.
+const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
+    "lightsampler",
+    ParamType::Choice(&LightSampler::WORDS),
+    ParamDefault::Text("tree"),
+    "How the light is chosen that a hit asks: each as often, by power, or by what it may send there.",
+);
+
+/// When their walks may end by chance.
+const ROULETTE_DEPTH: ParamSpec = ParamSpec::new(
+    "roulettedepth",
+    ParamType::Int,
+    ParamDefault::Int(3),
+    "Bounces after which chance may end a path.",
+)
+.range(0.0, 10_000.0);
 
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] =
-    &["bdpt", "function", "lightpath", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];
+pub const NOT_YET: &[&str] = &["function", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];

@@ -13,6 +13,7 @@ use durer_accel::{Hit, PrimitiveHit, UserGeometry};
 use durer_core::{
     Id,
     math::{Point3, Ray, Vector3},
+    spectrum::Basis,
 };
 use durer_model::{Medium, Surface, bsdf::BranchKind};
 
@@ -42,12 +43,14 @@ pub(crate) struct Crossing {
     front: MediumStack,
     /// Those that a ray is in which went through.
     pub(crate) behind: MediumStack,
+    /// The index changes with wavelength: what goes on is of the leading one only.
+    pub(crate) disperses: bool,
 }
 
 impl Crossing {
     /// The surface of no body.
     pub(crate) fn nothing(before: &MediumStack) -> Self {
-        Self { boundary: Boundary::Own, front: *before, behind: *before }
+        Self { boundary: Boundary::Own, front: *before, behind: *before, disperses: false }
     }
 
     /// The bodies that a ray is in which stays on this side of the surface, or goes through it.
@@ -79,6 +82,7 @@ impl Scene {
     /// beyond them.
     pub(crate) fn cross(
         &self,
+        basis: &Basis,
         (object, surface): (Id<Object>, &mut Surface),
         (wo, time, t): (Vector3, f32, f32),
         before: &MediumStack,
@@ -86,6 +90,7 @@ impl Scene {
     ) -> Crossing {
         let mut crossing = Crossing::nothing(before);
         let Some(medium) = self.medium_of(object) else { return crossing };
+        crossing.disperses = *basis != Basis::Rgb && self.media.get(medium).dispersion.is_some();
         let skin = Skin { object, medium, is_entered: surface.is_outside(wo) };
         if self.media.get(medium).priority.is_none() {
             if let Err(imbalance) = skin.cross(&mut crossing.behind) {
@@ -117,11 +122,14 @@ impl Scene {
                 }
             }
         }
-        let (near, far) = (near.present(&self.media), crossing.behind.present(&self.media));
+        let (near, far) = (near.present(&self.media, basis), crossing.behind.present(&self.media, basis));
         crossing.boundary = match near.medium == far.medium {
             true => Boundary::Passed,
             false => Boundary::Between(far.eta / near.eta),
         };
+        let disperses =
+            |medium: Option<Id<Medium>>| medium.is_some_and(|id| self.media.get(id).dispersion.is_some());
+        crossing.disperses = *basis != Basis::Rgb && (disperses(near.medium) || disperses(far.medium));
         crossing
     }
 

@@ -7,12 +7,12 @@ mod crossing;
 mod imbalances;
 mod start;
 
-use durer_core::Id;
+use durer_core::{Id, spectrum::Basis};
 use durer_model::{Medium, material::Material};
 
 pub(crate) use crossing::{Boundary, Crossing};
 pub use imbalances::{ImbalanceTotals, Imbalances};
-pub(crate) use start::start;
+pub(crate) use start::{around, start};
 
 /// The media of a scene: equal ones are one.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -103,16 +103,16 @@ impl MediumStack {
         Ok(())
     }
     /// What fills the place where the ray is.
-    pub(crate) fn present(&self, media: &Media) -> Present {
+    pub(crate) fn present(&self, media: &Media, basis: &Basis) -> Present {
         let mut present = Present { medium: None, eta: 1.0 };
         let mut winner: Option<&Medium> = None;
         for id in self.iter() {
             let medium = media.get(id);
             if medium.priority.is_none() {
-                present = Present { medium: Some(id), eta: present.eta * medium.eta };
+                present = Present { medium: Some(id), eta: present.eta * medium.eta(basis) };
             } else if winner.is_none_or(|w| yields(w, medium)) {
                 winner = Some(medium);
-                present = Present { medium: Some(id), eta: medium.eta };
+                present = Present { medium: Some(id), eta: medium.eta(basis) };
             }
         }
         present
@@ -121,6 +121,6 @@ impl MediumStack {
 
 /// Whether `present` gives way to `other`, both with a priority: a total order of different media.
 fn yields(present: &Medium, other: &Medium) -> bool {
-    let key = |m: &Medium| (m.priority, m.eta.to_bits(), m.absorption.rgb.map(f32::to_bits));
+    let key = |m: &Medium| (m.priority, m.eta_d.to_bits(), m.absorption.rgb.map(f32::to_bits));
     key(present) < key(other)
 }

@@ -33,7 +33,7 @@ pub(crate) fn start(scene: &Scene) -> MediumStack {
     // For a body, and how many of its medium were left before it: directions, and the sum of the ranks in which it was left.
     let mut votes: BTreeMap<(u32, u32), (u32, u32)> = BTreeMap::new();
     for direction in 0..DIRECTIONS {
-        for (rank, left) in (0..).zip(left_unentered(scene, direction)) {
+        for (rank, left) in (0..).zip(left_unentered(scene, spiral(scene, direction))) {
             let (count, ranks) = votes.entry(left).or_default();
             *count += 1;
             *ranks += rank;
@@ -51,29 +51,46 @@ pub(crate) fn start(scene: &Scene) -> MediumStack {
     stack
 }
 
-/// The media that a ray from the camera leaves without having entered them, in this order, with the number of the same that it
-/// left before.
-fn left_unentered(scene: &Scene, direction: u32) -> Vec<(u32, u32)> {
-    let cx = SampleCx { scene, basis: Basis::Rgb };
+/// The bodies that a ray starts in, by what it leaves without having entered it: right where all bodies are closed.
+pub(crate) fn around(scene: &Scene, ray: &Ray) -> MediumStack {
+    let mut stack = MediumStack::default();
+    if !scene.media.is_empty() {
+        for (medium, _) in left_unentered(scene, *ray).into_iter().rev() {
+            // More than fit: rays that leave the others will be counted.
+            let _ = stack.enter(Id::new(medium));
+        }
+    }
+    stack
+}
+
+/// One of the rays from the camera, on a spiral from pole to pole that turns by the golden angle.
+fn spiral(scene: &Scene, direction: u32) -> Ray {
     let time = scene.view.shutter.interval().min;
-    // A spiral from pole to pole, turning by the golden angle.
     let z = 1.0 - (2.0 * direction as f32 + 1.0) / DIRECTIONS as f32;
     let (radius, angle) = ((1.0 - z * z).sqrt(), PI * (3.0 - 5.0f32.sqrt()) * direction as f32);
     let d = Vector3::new(radius * float::cos(angle), radius * float::sin(angle), z).normalize();
     // Render space begins at the camera.
-    let mut ray = Ray { time, ..Ray::new(Point3::new(0.0, 0.0, 0.0), d) };
+    Ray { time, ..Ray::new(Point3::new(0.0, 0.0, 0.0), d) }
+}
+
+/// The media that a ray of unit direction leaves without having entered them, in this order, with the number of the same
+/// that it left before.
+fn left_unentered(scene: &Scene, mut ray: Ray) -> Vec<(u32, u32)> {
+    let cx = SampleCx { scene, basis: Basis::Rgb };
+    let (d, time) = (ray.d, ray.time);
     let mut stack = MediumStack::default();
     let mut left: Vec<(u32, u32)> = Vec::new();
     for _ in 0..MOST_SURFACES {
         let Some(hit) = scene.closest(&cx, &ray, &mut NoProbe, ()) else { break };
         let (object, mut surface) = scene.surface(&ray, &hit);
-        let crossing = scene.cross((object, &mut surface), (-d, time, hit.t), &stack, |of, imbalance| {
-            let medium = scene.medium_of(of).map(|id: Id<Medium>| id.index() as u32);
-            if let (Some(medium), Imbalance::LeftUnentered) = (medium, imbalance) {
-                let before = left.iter().filter(|(m, _)| *m == medium).count();
-                left.push((medium, before as u32));
-            }
-        });
+        let crossing =
+            scene.cross(&cx.basis, (object, &mut surface), (-d, time, hit.t), &stack, |of, imbalance| {
+                let medium = scene.medium_of(of).map(|id: Id<Medium>| id.index() as u32);
+                if let (Some(medium), Imbalance::LeftUnentered) = (medium, imbalance) {
+                    let before = left.iter().filter(|(m, _)| *m == medium).count();
+                    left.push((medium, before as u32));
+                }
+            });
         stack = crossing.behind;
         ray = surface.spawn(d, time);
     }

@@ -83,6 +83,8 @@ pub enum ChosenBy {
     Sharp,
     /// It was drawn from a lobe that spreads.
     Lobe,
+    /// It leads to a vertex of a walk from the other end.
+    Joined,
 }
 
 /// How a ray and its weight came about:
@@ -91,6 +93,9 @@ pub enum ChosenBy {
 ///   division by `pdf`.
 /// - [`ChosenBy::Sharp`]: `weight` is what the lobe reflects or transmits; `f`, `cos`, `pdf` do not apply.
 /// - [`ChosenBy::Lobe`]: `weight = f cos / (pdf rays)`; `chance` is 1.
+///
+/// - [`ChosenBy::Joined`]: `weight = f cos mis cos' / d²`, with the cosine at the other vertex and the distance; it multiplies
+///   what that vertex sends. Of particles `weight` is 0: what they bring is part of other rays.
 ///
 /// Whatever is lost on the way along the parent ray is part of `f`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,11 +20,15 @@ pub enum RayKind {
     GlossyRefraction,
     /// Continued, without a bounce, through a surface that is not there: that of a body which gives way to another.
     Passing,
+    /// Between a vertex of a walk from one end of a path and one from the other, or the camera.
+    Connection,
+    /// The way of a particle from a light.
+    Photon,
 }
 
 impl RayKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Eye,
         Self::Shadow,
         Self::Reflection,
@@ -32,6 +36,8 @@ impl RayKind {
         Self::GlossyReflection,
         Self::GlossyRefraction,
         Self::Passing,
+        Self::Connection,
+        Self::Photon,
     ];
 
     /// The kind of ray that follows a perfectly sharp direction.
@@ -49,6 +55,11 @@ impl RayKind {
         }
     }
 
+    /// Whether it brings what a surface sends from further on: no question whether something is seen, no way of a particle.
+    pub fn is_followed(self) -> bool {
+        !matches!(self, Self::Shadow | Self::Connection | Self::Photon)
+    }
+
     /// The word in exports and statistics.
     pub fn word(self) -> &'static str {
         match self {
@@ -59,6 +70,8 @@ impl RayKind {
             Self::GlossyReflection => "glossy-reflection",
             Self::GlossyRefraction => "glossy-refraction",
             Self::Passing => "passing",
+            Self::Connection => "connection",
+            Self::Photon => "photon",
         }
     }
 }

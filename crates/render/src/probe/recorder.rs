@@ -28,7 +28,14 @@ pub struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// A recorder that has seen nothing.
     pub fn new(cx: &SampleCx<'a>, detail: Detail) -> Self {
-        Self { cx: *cx, detail, tree: RayTree::default(), chosen: None, begun: Vec::new(), walks: Vec::new() }
+        Self {
+            cx: *cx,
+            detail,
+            tree: RayTree { basis: cx.basis, ..RayTree::default() },
+            chosen: None,
+            begun: Vec::new(),
+            walks: Vec::new(),
+        }
     }
 
     /// How the ray came about that is traced next.
@@ -154,17 +161,17 @@ impl Probe for Recorder<'_> {
         });
     }
     fn shaded(&mut self, id: NodeId, event: &Shaded<'_>) {
-        let media = &self.cx.scene.media;
+        let (media, basis) = (&self.cx.scene.media, self.cx.basis);
         let fresnel = event.bsdf.fresnel(event.wo);
         let is_empty = event.before.is_empty() && event.after.is_empty();
         let of_media = (!is_empty).then(|| {
             let (n1, n2) = match fresnel {
                 // As it was refracted, also where the account of the bodies is wrong.
                 Some(fresnel) => {
-                    let n2 = event.after.present(media).eta;
+                    let n2 = event.after.present(media, &basis).eta;
                     (n2 / fresnel.eta, n2)
                 }
-                None => (event.before.present(media).eta, event.before.present(media).eta),
+                None => (event.before.present(media, &basis).eta, event.before.present(media, &basis).eta),
             };
             TreeMedia { before: event.before, after: event.after, n1, n2 }
         });

@@ -1,5 +1,5 @@
 //! The ray tree of one sample, and what can be told from it.
-use durer_core::spectrum::Spectrum;
+use durer_core::spectrum::{Basis, Spectrum};
 
 use super::TreeNode;
 
@@ -55,6 +55,8 @@ impl Default for Detail {
 pub struct RayTree {
     /// The nodes; ids are indices.
     pub nodes: Vec<TreeNode>,
+    /// What the lanes of their spectra mean.
+    pub basis: Basis,
     /// Where the eye ray comes from; `None` for trees that begin at another ray.
     pub eye: Option<TreeEye>,
     /// The node that an infinite or NaN value comes from, if there is one: the first whose own part or weight is, while
@@ -86,6 +88,21 @@ impl RayTree {
             }
         }
         results.first().copied().unwrap_or(Spectrum::BLACK)
+    }
+
+    /// The part of the tree from a node on, with ids from 0.
+    #[must_use]
+    pub fn below(&self, id: u32) -> Self {
+        let mut numbers: Vec<Option<u32>> = vec![None; self.nodes.len()];
+        let mut nodes = Vec::new();
+        for (index, node) in (0..).zip(&self.nodes) {
+            let parent = node.parent.and_then(|parent| numbers[parent as usize]);
+            if index == id || parent.is_some() {
+                numbers[index as usize] = Some(nodes.len() as u32);
+                nodes.push(TreeNode { parent, ..node.clone() });
+            }
+        }
+        Self { nodes, ..self.clone() }
     }
 
     /// See [`RayTree::bad`].

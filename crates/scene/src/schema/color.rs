@@ -1,79 +1,158 @@
-//! Colour parameters, and spectra until rays carry wavelengths: files of wavelength and value (`.spd`), lists, names.
-use durer_core::spectrum::{Color, HELIUM_D, Named, Sampled, blackbody, curve, named, spectrum_names};
+//! Colour parameters, and spectra: files of wavelength and value (`.spd`), lists, names. What is measured keeps its curve
+//! beside the colour that stands for it where rays carry red, green and blue.
+use durer_core::spectrum::{
+    Color, Curve, HELIUM_D, LightColor, Named, Sampled, curve, named, named_curve, named_light,
+    spectrum_names,
+};
 
 use super::{Args, ParamDefault, args::range_text};
 use crate::{AssetError, Data, Location, TextureValue, ValueType, nearest_word};
 
 /// A colour, or the index of the colour texture that gives it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ColorInput {
     /// The same everywhere.
     Constant(Color),
     /// Index in [`crate::SceneDesc::textures`].
     Texture(u32),
+    /// A measured curve, the same everywhere, and the colour that stands for it.
+    Curve(Color, Curve),
 }
 
-/// A spectrum that was found.
+impl ColorInput {
+    /// The colour if it is the same everywhere.
+    pub fn even(&self) -> Option<Color> {
+        match self {
+            Self::Constant(color) | Self::Curve(color, _) => Some(*color),
+            Self::Texture(_) => None,
+        }
+    }
+}
+
+/// The colour of a light, or the index of the colour texture that gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LightInput {
+    /// The same everywhere.
+    Even(LightColor),
+    /// Index in [`crate::SceneDesc::textures`].
+    Texture(u32),
+}
+
+/// A spectrum that was found, with its word if it has one.
 enum Spectrum {
-    Named(Named),
+    Named(String, Named),
     Sampled(Sampled),
 }
 
 impl Args<'_> {
     /// A colour.
     pub fn color(&mut self, name: &str) -> Color {
-        match self.color_input(name) {
-            ColorInput::Constant(c) => c,
-            ColorInput::Texture(_) => Color::BLACK,
-        }
+        self.color_input(name).even().unwrap_or(Color::BLACK)
     }
 
     /// A colour or a colour texture; complains about a texture or spectrum that does not exist.
     pub fn color_input(&mut self, name: &str) -> ColorInput {
-        let Some(param) = self.param(name) else {
-            let ParamDefault::Triple(rgb) = self.default(name) else {
-                return ColorInput::Constant(Color::BLACK);
+        if self.spec(name).is_some_and(|spec| spec.is_light()) {
+            return match self.light_input(name) {
+                LightInput::Even(light) => ColorInput::Constant(light.color),
+                LightInput::Texture(index) => ColorInput::Texture(index),
             };
-            return ColorInput::Constant(Color { rgb });
-        };
-        let color = match (param.ty, &param.data) {
-            (ValueType::Texture, Data::Strings(v)) => {
-                let found = self.texture(param, v, TextureValue::Color);
-                return found.map_or(ColorInput::Constant(Color::BLACK), ColorInput::Texture);
-            }
-            (ValueType::Rgb, Data::Floats(v)) => match v.as_slice() {
-                [r, g, b, ..] => Color::new(*r, *g, *b),
-                _ => Color::BLACK,
+        }
+        if let Some(plain) = self.plain(name) {
+            return plain;
+        }
+        match self.spectrum(name) {
+            Some(Spectrum::Named(word, known)) => match named_curve(&word) {
+                Some(curve) => ColorInput::Curve(known.color, curve),
+                None => ColorInput::Constant(known.color),
             },
-            (ValueType::Blackbody, Data::Floats(v)) => blackbody(v.first().copied().unwrap_or(0.0)),
-            _ => match self.spectrum(name) {
-                Some(Spectrum::Named(known)) => known.color,
-                Some(Spectrum::Sampled(s)) if self.spec(name).is_some_and(|spec| spec.is_light()) => {
-                    s.light()
-                }
-                Some(Spectrum::Sampled(s)) => s.share(),
-                None => Color::BLACK,
-            },
-        };
-        ColorInput::Constant(color)
+            Some(Spectrum::Sampled(s)) => ColorInput::Curve(s.share(), Curve::measured(&s)),
+            None => ColorInput::Constant(Color::BLACK),
+        }
     }
 
-    /// An index of refraction: a number, or the value of a spectrum at 587.6 nm, which is checked against the range.
-    pub fn index(&mut self, name: &str) -> f32 {
-        if self.param(name).is_none_or(|param| param.ty != ValueType::Spectrum) {
-            return self.float(name);
+    /// The colour of a light.
+    pub fn light_color(&mut self, name: &str) -> LightColor {
+        match self.light_input(name) {
+            LightInput::Even(light) => light,
+            LightInput::Texture(_) => LightColor::default(),
         }
-        let value = match self.spectrum(name) {
-            Some(Spectrum::Named(known)) => known.number,
-            Some(Spectrum::Sampled(s)) => s.nearest(HELIUM_D),
-            None => return 1.0,
-        };
-        if let Some(spec) = self.spec(name)
-            && !(value >= spec.range.0 && value <= spec.range.1)
+    }
+
+    /// The colour of a light, or a colour texture.
+    pub fn light_input(&mut self, name: &str) -> LightInput {
+        if let Some(param) = self.param(name)
+            && let (ValueType::Blackbody, Data::Floats(v)) = (param.ty, &param.data)
         {
-            self.error(name, format!("\"{name}\" is {value} at 587.6 nm, expected {}", range_text(spec)));
+            return LightInput::Even(LightColor::blackbody(v.first().copied().unwrap_or(0.0)));
         }
-        value
+        match self.plain(name) {
+            Some(ColorInput::Texture(index)) => return LightInput::Texture(index),
+            Some(ColorInput::Constant(color) | ColorInput::Curve(color, _)) => {
+                return LightInput::Even(color.into());
+            }
+            None => {}
+        }
+        LightInput::Even(match self.spectrum(name) {
+            Some(Spectrum::Named(word, known)) => {
+                named_light(&word).unwrap_or_else(|| LightColor::from(known.color))
+            }
+            Some(Spectrum::Sampled(s)) => LightColor::measured(&s),
+            None => LightColor::default(),
+        })
+    }
+
+    /// What parameter `name` says if it is no spectrum.
+    fn plain(&mut self, name: &str) -> Option<ColorInput> {
+        let Some(param) = self.param(name) else {
+            let ParamDefault::Triple(rgb) = self.default(name) else {
+                return Some(ColorInput::Constant(Color::BLACK));
+            };
+            return Some(ColorInput::Constant(Color { rgb }));
+        };
+        match (param.ty, &param.data) {
+            (ValueType::Texture, Data::Strings(v)) => {
+                let found = self.texture(param, v, TextureValue::Color);
+                Some(found.map_or(ColorInput::Constant(Color::BLACK), ColorInput::Texture))
+            }
+            (ValueType::Rgb, Data::Floats(v)) => Some(ColorInput::Constant(match v.as_slice() {
+                [r, g, b, ..] => Color::new(*r, *g, *b),
+                _ => Color::BLACK,
+            })),
+            (ValueType::Blackbody, Data::Floats(v)) => {
+                Some(ColorInput::Constant(LightColor::blackbody(v.first().copied().unwrap_or(0.0)).color))
+            }
+            _ => None,
+        }
+    }
+
+    /// An index of refraction where one number is wanted: of a spectrum, that at 587.6 nm.
+    pub fn index(&mut self, name: &str) -> f32 {
+        self.refraction(name).0
+    }
+
+    /// An index of refraction, and how it changes with wavelength if it does. Both are checked against the range.
+    pub fn refraction(&mut self, name: &str) -> (f32, Option<Curve>) {
+        if self.param(name).is_none_or(|param| param.ty != ValueType::Spectrum) {
+            return (self.float(name), None);
+        }
+        let (value, curve) = match self.spectrum(name) {
+            Some(Spectrum::Named(word, known)) => (known.number, named_curve(&word)),
+            Some(Spectrum::Sampled(s)) => (s.nearest(HELIUM_D), Some(Curve::nearest(&s))),
+            None => return (1.0, None),
+        };
+        if let Some(spec) = self.spec(name) {
+            let (least, most) = spec.range;
+            let at =
+                |nm: &str, value: f32| format!("\"{name}\" is {value} {nm}, expected {}", range_text(spec));
+            let is_outside = |value: f32| !(value >= least && value <= most);
+            if is_outside(value) {
+                self.error(name, at("at 587.6 nm", value));
+            } else if let Some(value) = curve.iter().flat_map(Curve::ends).find(|v| is_outside(*v)) {
+                self.error(name, at("at some wavelengths", value));
+            }
+        }
+        (value, curve.filter(|curve| !curve.is_flat()))
     }
 
     /// The curve over wavelengths that parameter `name` gives or names; `None` if it is left out, no curve (a colour or a
@@ -90,7 +169,7 @@ impl Args<'_> {
         }
         match self.spectrum(name)? {
             Spectrum::Sampled(sampled) => Some(sampled),
-            Spectrum::Named(_) => None,
+            Spectrum::Named(..) => None,
         }
     }
 
@@ -102,7 +181,7 @@ impl Args<'_> {
             Data::Strings(words) => {
                 let word = words.first()?;
                 if let Some(known) = named(word) {
-                    return Some(Spectrum::Named(known));
+                    return Some(Spectrum::Named(word.clone(), known));
                 }
                 match self.bytes(word) {
                     Some(Ok(bytes)) => read_spd(&bytes).map_err(|why| format!("{word}: {why}")),

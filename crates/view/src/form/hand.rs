@@ -3,6 +3,7 @@ use durer::{
     film::ToneMap,
     sampling::SamplerKind,
     scene::{ParamDefault, ParamSpec, ParamType},
+    spectrum::Carried,
 };
 use serde_json::Value;
 
@@ -43,6 +44,12 @@ const FILM: &[ParamSpec] = &[
     .range(1.0, 65536.0),
     ParamSpec::new("seed", ParamType::Int, ParamDefault::Unset, "Changes every random number.")
         .range(0.0, 1e6),
+    ParamSpec::new(
+        "spectral",
+        ParamType::Bool,
+        ParamDefault::Unset,
+        "Rays carry four wavelengths instead of red, green and blue.",
+    ),
 ];
 
 const MOMENT: &[ParamSpec] =
@@ -78,6 +85,10 @@ pub(super) fn fields(id: FormId, settings: &Settings) -> Vec<Field> {
             "height" => options.height.into(),
             "samples" => options.samples.or(settings.desc.film.samples).into(),
             "seed" => options.seed.into(),
+            "spectral" => match options.carried {
+                Some(carried) => (carried == Carried::Wavelengths).into(),
+                None => settings.desc.film.spectral.into(),
+            },
             "time" => short(options.time),
             _ => Value::Null,
         };
@@ -124,6 +135,11 @@ pub(super) fn set(
         }
         "samples" => options.samples = whole(opened.options.samples),
         "seed" => options.seed = number.map_or(opened.options.seed, |v| v as u64),
+        "spectral" => {
+            let wanted = value.as_bool().map(|on| if on { Carried::Wavelengths } else { Carried::Rgb });
+            options.carried = wanted.or(opened.options.carried);
+            return Ok(Effort::Again);
+        }
         "time" => options.time = number.map_or(opened.options.time, |v| v as f32),
         name => {
             let mut size = [options.width, options.height];
@@ -168,7 +184,9 @@ pub(super) fn reset(id: FormId, settings: &mut Settings, opened: &Settings) -> E
             let [options, was] = [&mut settings.options, &mut opened.options.clone()];
             (options.width, options.height) = (was.width, was.height);
             (options.samples, options.seed) = (was.samples, was.seed);
-            Effort::Retake
+            let same = options.carried == was.carried;
+            options.carried = was.carried;
+            if same { Effort::Retake } else { Effort::Again }
         }
     }
 }

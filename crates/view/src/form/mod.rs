@@ -144,7 +144,7 @@ impl FormId {
         }
     }
 
-    fn family(self) -> &'static str {
+    pub(crate) fn family(self) -> &'static str {
         match self {
             Self::Look => "look",
             Self::Film => "film",
@@ -158,7 +158,7 @@ impl FormId {
         }
     }
 
-    fn title(self, settings: &Settings) -> String {
+    pub(crate) fn title(self, settings: &Settings) -> String {
         let desc = &settings.desc;
         let called = |name: &str, kind: &str, n: usize| match name {
             "" => format!("{kind} {n}"),

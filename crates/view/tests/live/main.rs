@@ -1,5 +1,7 @@
 //! The server as a page meets it: over real sockets.
+mod archive;
 mod client;
+mod develop;
 mod door;
 mod forms;
 mod picture;

@@ -82,3 +82,63 @@ fn a_file_that_is_broken_keeps_the_old_picture_and_says_why() {
     assert_ne!(green.rgb8, red.rgb8);
     assert_eq!(green.head["of"], 5, "what the viewer asked for stays");
 }
+
+/// A ball of a named material under a light of its own.
+fn named(color: &str, before: &str) -> String {
+    format!(
+        "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n{before}\
+         LightSource \"point\" \"string name\" \"lamp\" \"rgb I\" [5 5 5] \"point3 from\" [0 2 -3]\n\
+         MakeNamedMaterial \"paint\" \"string type\" \"diffuse\" \"rgb reflectance\" [{color}]\n\
+         NamedMaterial \"paint\"\nShape \"sphere\"\n"
+    )
+}
+
+#[test]
+fn changes_of_what_the_file_has_as_before_stay() {
+    let (folder, live) = opened(&named("0.8 0.1 0.1", ""));
+    let file = folder.path().join("scene.pbrt");
+    let mut page = Client::new(&live);
+    page.finished();
+    let of = |forms: &serde_json::Value, title: &str| {
+        let forms = forms.as_array().expect("a list");
+        forms.iter().find(|f| f["title"] == title).unwrap_or_else(|| panic!("{title}")).clone()
+    };
+    let value = |form: &serde_json::Value, name: &str| {
+        let params = form["params"].as_array().expect("a list");
+        params.iter().find(|p| p["name"] == name).expect("a parameter")["value"].clone()
+    };
+    for (title, param, new) in
+        [("paint", "reflectance", json!([0.1, 0.9, 0.2])), ("lamp", "I", json!([9, 9, 9]))]
+    {
+        let id = of(&page.hello["forms"], title)["id"].clone();
+        page.say(&json!({ "type": "set", "form": id, "param": param, "value": new }));
+        page.text("forms");
+    }
+    page.say(&json!({ "type": "set", "form": "film", "param": "seed", "value": 7 }));
+    page.say(&json!({ "type": "kind", "form": "sampler", "kind": "halton" }));
+    // Another material before them: numbers change, names do not; and everything stands on other lines.
+    let more =
+        "MakeNamedMaterial \"wax\" \"string type\" \"diffuse\"\n\nMaterial \"diffuse\"\nShape \"disk\"\n";
+    write(&file, &named("0.8 0.1 0.1", more));
+    let told = page.text("scene");
+    let (paint, lamp) = (of(&told["forms"], "paint"), of(&told["forms"], "lamp"));
+    assert_eq!(value(&paint, "reflectance"), json!([0.1, 0.9, 0.2]));
+    assert_eq!((&paint["changed"], value(&lamp, "I")), (&json!(true), json!([9.0, 9.0, 9.0])));
+    assert_ne!(paint["id"], of(&page.hello["forms"], "paint")["id"]);
+    assert_eq!(value(&of(&told["forms"], "film"), "seed"), 7);
+    assert_eq!(of(&told["forms"], "sampler")["kind"], "halton");
+    page.frame_when(|h| h["revision"] == 2 && h["done"] == true);
+    assert!(!page.texts.iter().any(|t| t["type"] == "error"), "{:?}", page.texts);
+
+    // What the file has otherwise now is the file's.
+    write(&file, &named("0.2 0.2 0.9", more));
+    let told = page.text("scene");
+    assert_eq!(value(&of(&told["forms"], "paint"), "reflectance"), json!([0.2, 0.2, 0.9]));
+    assert_eq!(value(&of(&told["forms"], "lamp"), "I"), json!([9.0, 9.0, 9.0]));
+    let error = page.text("error");
+    let message = error["message"].as_str().expect("words");
+    assert!(
+        message.contains("\"paint\"") && !message.contains("lamp") && error["about"] == "scene",
+        "{error}"
+    );
+}

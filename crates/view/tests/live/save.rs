@@ -150,15 +150,3 @@ fn keys_and_what_corners_have_come_back() {
         assert!(differing <= 3, "{name}: {differing} pixels\n{text}");
     }
 }
-
-#[test]
-fn what_the_language_has_no_words_for_is_named() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("leaf.gltf");
-    std::fs::write(&file, include_str!("scenes/leaf-with-picture.gltf")).expect("written");
-    let live = serve(file.to_str().expect("text"), small());
-    let page = Client::new(&live);
-    let (code, _, why) = save(&live, &page, "pbrt");
-    let why = String::from_utf8_lossy(&why).into_owned();
-    assert!(code == 409 && why.contains("which lies within the scene file"), "{code} {why}");
-}

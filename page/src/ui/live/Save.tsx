@@ -6,7 +6,8 @@ import type { Live } from "../../live/live";
 import { Section } from "../parts";
 
 const FORMATS: [string, string, string][] = [
-  ["png", "PNG", "The picture as it is seen"], ["exr", "EXR", "The light itself, neither exposed nor tone-mapped"], ["pbrt", ".pbrt", "The scene with all changes"],
+  ["png", "PNG", "The picture as it is seen"], ["exr", "EXR", "The light itself, neither exposed nor tone-mapped"], ["pbrt", ".pbrt", "The scene with all changes; its files stay where they are. A scene whose pictures or large meshes lie within its file comes as .zip"],
+  ["zip", ".zip", "The scene with all changes and all its files, to be unpacked anywhere"],
 ];
 
 /** Fetches a file of the program and gives it to the browser as a download. Says what went wrong. */

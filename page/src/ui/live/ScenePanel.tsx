@@ -33,6 +33,7 @@ function One({ live, id, title }: { live: Live; id: string; title: string }): JS
 const LAYERS: Record<string, string> = {
   beauty: "the picture", depth: "distance", normal: "way that surfaces face", shading: "shading normals", albedo: "colour of surfaces",
   uv: "texture places", id: "objects", cost: "tests of rays: where time goes",
+  rays: "rays of a sample", noise: "how much samples differ",
 };
 
 function LookPanel({ live }: { live: Live }): JSX.Element {
@@ -47,7 +48,7 @@ function LookPanel({ live }: { live: Live }): JSX.Element {
           ))}
         </div>
         {header?.range && header.layer === main.layer.value && <Scale from={`${num(header.range[0], 3)} m`} to={`${num(header.range[1], 3)} m`} kind="depth" />}
-        {header?.white != null && header.layer === main.layer.value && <Scale from="0" to={`${count(header.white)} tests`} kind="cost" />}
+        {header?.white != null && header.layer === main.layer.value && <Scale from="0" to={header.layer === "noise" ? `±${num(header.white, 3)}` : `${num(header.white, 4)} ${header.layer === "rays" ? "rays" : "tests"}`} kind="cost" />}
       </Section>
       <One live={live} id="look" title="Exposure and tone" />
       <Split live={live} />

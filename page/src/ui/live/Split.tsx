@@ -13,10 +13,10 @@ export function Split({ live }: { live: Live }): JSX.Element {
   const read = async (file: File | undefined): Promise<void> => {
     if (!file) return;
     try {
-      live.hold(await createImageBitmap(file), file.name);
+      await live.compareWith(file);
       problem.value = "";
-    } catch {
-      problem.value = `${file.name} is no picture that this browser reads: PNG, JPEG and WebP are.`;
+    } catch (error) {
+      problem.value = `${file.name}: ${error instanceof Error ? error.message : String(error)}`;
     }
   };
   const keep = async (): Promise<void> => {
@@ -30,7 +30,7 @@ export function Split({ live }: { live: Live }): JSX.Element {
           <option value="">integrator …</option>
           {kinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
         </select></label>
-        <label class="filebutton">a file …<input type="file" accept="image/*" class="hidden" onChange={(event) => void read(event.currentTarget.files?.[0])} /></label>
+        <label class="filebutton" title="PNG, JPEG, WebP; OpenEXR, Radiance HDR and PFM are exposed and tone-mapped like this picture">a file …<input type="file" accept="image/*,.exr,.hdr,.pfm,.tga" class="hidden" onChange={(event) => void read(event.currentTarget.files?.[0])} /></label>
         <button type="button" title="Keeps the picture as it is now, to see what a change does" onClick={() => void keep()}>this, as it is</button>
         {other && <button type="button" onClick={() => live.unsplit()}>End</button>}
       </div>

@@ -53,10 +53,12 @@ function Under({ live }: { live: Live }): JSX.Element {
 
 /** The numbers of a pixel, with their unit. */
 export function numbers({ rgb }: Pick, layer: string): string {
-  const [a = 0, b = 0] = rgb ?? [];
+  const [a = 0, b = 0, c = 0] = rgb ?? [];
   switch (layer) {
     case "depth": return `${num(a)} m deep`;
     case "cost": return `${count(a)} primitives + ${count(b)} boxes tested`;
+    case "rays": return `${num(a, 3)} rays per sample`;
+    case "noise": return `luminance ${num(b, 3)} ± ${num(Math.sqrt(Math.max(0, c - b * b)), 3)} per sample`;
     case "id": return `object ${count(a)}`;
     case "uv": return `u ${num(a)}  v ${num(b)}`;
     default: return (rgb ?? []).map((x) => num(x, 3)).join("  ");

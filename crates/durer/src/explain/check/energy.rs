@@ -2,7 +2,7 @@
 use super::{super::words, Checked, Law};
 use crate::{
     probe::{RayKind, TreeNode},
-    spectrum::{Basis, Spectrum},
+    spectrum::Spectrum,
 };
 
 /// Rounding, and what single precision leaves of equations that keep all light.
@@ -16,7 +16,7 @@ impl Checked<'_> {
         {
             let text = format!(
                 "ray {index} brings {}: here an infinite or undefined number comes into the pixel",
-                words::light(node.result)
+                words::lanes(&self.tree.basis, node.result)
             );
             self.add(Law::Energy, index, "not a number", text);
         }
@@ -24,22 +24,29 @@ impl Checked<'_> {
         for (what, value) in parts {
             let lowest = lanes(value).into_iter().fold(f64::INFINITY, f64::min);
             if lowest < 0.0 {
-                let text = format!("the {what} of ray {index} is negative: {}", words::light(value));
+                let text = format!(
+                    "the {what} of ray {index} is negative: {}",
+                    words::lanes(&self.tree.basis, value)
+                );
                 self.add(Law::Energy, index, what, text);
             }
         }
         if let Some(hit) = &node.hit {
             let sharp = |kind| matches!(kind, RayKind::Reflection | RayKind::Refraction);
-            let sum = self
-                .below(index)
-                .filter(|(_, child)| sharp(child.kind))
-                .fold(Spectrum::BLACK, |sum, (_, child)| sum + child.share(node));
+            let sum = self.below(index).filter(|(_, child)| sharp(child.kind)).fold(
+                Spectrum::BLACK,
+                |sum, (_, child)| {
+                    // One wavelength stands for all from here on.
+                    let stands_for = child.path.is_collapsed && !node.path.is_collapsed;
+                    sum + child.share(node) * if stands_for { 0.25 } else { 1.0 }
+                },
+            );
             let most = lanes(sum).into_iter().fold(0.0, f64::max);
             if most > 1.0 + TOLERANCE {
                 let name = self.name(hit);
                 let text = format!(
                     "\"{name}\" reflects and transmits more than it gets: the weights of its rays sum to {}",
-                    words::light(sum)
+                    words::lanes(&self.tree.basis, sum)
                 );
                 self.add(Law::Energy, index, &name, text);
             }
@@ -47,6 +54,6 @@ impl Checked<'_> {
     }
 }
 
-fn lanes(s: Spectrum) -> [f64; 3] {
-    Basis::Rgb.to_rgb(s).map(f64::from)
+fn lanes(s: Spectrum) -> [f64; 4] {
+    s.lanes().map(f64::from)
 }

@@ -7,7 +7,7 @@ use crate::{
     glam::DVec3,
     math::Vector3,
     probe::{RayKind, StopReason, TreeHit, TreeNode},
-    spectrum::{Basis, Spectrum},
+    spectrum::Spectrum,
 };
 
 /// Largest error of a ratio of sines; and of a share of light.
@@ -83,13 +83,14 @@ impl Checked<'_> {
         let medium = scene.media.of_material(self.object(hit).material)?;
         let own = scene.media.get(medium);
         let before = node.path.media;
-        let n1 = present(&scene.media, &before).0;
+        let basis = &self.tree.basis;
+        let n1 = present(&scene.media, basis, &before).0;
         let n2 = match own.priority {
-            None if hit.from_outside => n1 * f64::from(own.eta),
-            None => n1 / f64::from(own.eta),
+            None if hit.from_outside => n1 * f64::from(own.eta(basis)),
+            None => n1 / f64::from(own.eta(basis)),
             // What is wrong with the account is told of that.
             Some(_) if !hit.from_outside && !before.iter().any(|id| id == medium) => return None,
-            Some(_) => present(&scene.media, &shading.media?.after).0,
+            Some(_) => present(&scene.media, basis, &shading.media?.after).0,
         };
         let cos = unit(Vector3::from(hit.n_s)).dot(unit(node.d)).abs().min(1.0);
         let sin = unit(Vector3::from(hit.n_s)).cross(unit(node.d)).length();
@@ -140,10 +141,11 @@ impl Checked<'_> {
             RayKind::Reflection => (reflected, lobe.reflectance, "reflected"),
             _ => (1.0 - reflected, lobe.transmittance, "transmitted"),
         };
-        let full = lanes(shading.arrived * factor);
+        let all = shading.arrived * factor;
+        let full = lanes(all);
         let told = lanes(child.share(node));
         let is_wrong = |i: usize| (told[i] - share * full[i]).abs() > TOLERANCE * full[i].max(1e-3);
-        if !(0..3).any(is_wrong) {
+        if !(0..4).any(is_wrong) {
             return;
         }
         let name = self.name(hit);
@@ -153,8 +155,8 @@ impl Checked<'_> {
             words::number(sides.n1),
             words::number(sides.n2),
             words::degrees_of(sides.cos),
-            words::color(full),
-            words::light(child.share(node))
+            words::lanes(&self.tree.basis, all),
+            words::lanes(&self.tree.basis, child.share(node))
         );
         self.add(Law::Fresnel, number, &name, text);
     }
@@ -227,6 +229,6 @@ fn refracted(d: DVec3, n: DVec3, sides: &Sides) -> Option<DVec3> {
     Some((d * ratio + n * (ratio * sides.cos - cos)).normalize_or_zero())
 }
 
-fn lanes(s: Spectrum) -> [f64; 3] {
-    Basis::Rgb.to_rgb(s).map(f64::from)
+fn lanes(s: Spectrum) -> [f64; 4] {
+    s.lanes().map(f64::from)
 }

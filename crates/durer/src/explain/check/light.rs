@@ -7,7 +7,6 @@ use crate::{
     model::light::LightCx,
     probe::{NoProbe, TreeNode},
     sampling::{Sampler, SamplerKind},
-    spectrum::Basis,
 };
 
 /// Largest angle between directions that are the same, in radians.
@@ -23,7 +22,7 @@ impl Checked<'_> {
                 format!("shadow ray {index} asks light {}, which the scene does not have", event.light);
             return self.add(Law::ShadowRay, index, "no light", text);
         };
-        let asked = LightCx { basis: Basis::Rgb, time: node.path.ray.time };
+        let asked = LightCx { basis: self.tree.basis, time: node.path.ray.time };
         let from = node.path.from;
         let d = unit(node.d);
         // A light that gives nothing here cannot say where it is.
@@ -55,7 +54,7 @@ impl Checked<'_> {
     /// Which other light it leads to, if to any.
     fn aims_at(&self, node: &TreeNode, claimed: u32) -> String {
         let scene = &self.prepared.scene;
-        let asked = LightCx { basis: Basis::Rgb, time: node.path.ray.time };
+        let asked = LightCx { basis: self.tree.basis, time: node.path.ray.time };
         let from = node.path.from;
         let leads = |light: &dyn crate::model::light::Light| {
             let sample = light.sample(&asked, from, &Sampler::middle());
@@ -69,7 +68,7 @@ impl Checked<'_> {
     /// Whether something that is this light lies on the ray, at the point that it goes to.
     fn meets(&self, node: &TreeNode, light: u32, point: Option<Point3>) -> bool {
         let scene = &self.prepared.scene;
-        let cx = SampleCx { scene, basis: Basis::Rgb };
+        let cx = SampleCx { scene, basis: self.tree.basis };
         let Some(point) = point else { return false };
         let way = point - node.path.from;
         let (length, d) = (way.length(), way.normalize());

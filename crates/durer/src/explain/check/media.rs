@@ -4,7 +4,6 @@ use crate::{
     Id, MediumStack,
     model::Medium,
     probe::{NoProbe, RayKind, TreeHit, TreeNode},
-    spectrum::Basis,
 };
 
 /// Surfaces looked at along a line.
@@ -69,7 +68,7 @@ impl Checked<'_> {
     /// along the line of the ray.
     fn why_unentered(&self, node: &TreeNode, hit: &TreeHit) -> String {
         let scene = &self.prepared.scene;
-        let cx = crate::SampleCx { scene, basis: Basis::Rgb };
+        let cx = crate::SampleCx { scene, basis: self.tree.basis };
         let name = self.name(hit);
         let time = node.path.ray.time;
         let mut ray = scene.surface(&node.path.ray, &hit.hit).1.spawn(node.d, time);

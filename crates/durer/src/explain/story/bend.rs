@@ -5,7 +5,7 @@ use crate::{
 };
 
 use super::{
-    super::words::{degrees, light, number, percent},
+    super::words::{degrees, number, percent},
     Teller,
 };
 
@@ -51,8 +51,8 @@ impl Teller<'_> {
         }
         if fresnel.is_constant {
             let lobe = shading.lobes.iter().find(|l| l.name == "glass" || l.name == "frosted");
-            let (r, t) =
-                lobe.map_or_else(Default::default, |l| (light(l.reflectance), light(l.transmittance)));
+            let (r, t) = lobe
+                .map_or_else(Default::default, |l| (self.lanes(l.reflectance), self.lanes(l.transmittance)));
             sentences.push(format!(
                 "The material shares the light by Whitted's constants, ks = {r} and kt = {t}; Fresnel's equations would \
                  reflect {}.",

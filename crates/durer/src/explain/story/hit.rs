@@ -1,12 +1,15 @@
 //! Sentences about a surface that a ray met, or about a ray that met none.
-use crate::model::bsdf::LobeView;
-use crate::probe::{RayKind, StopReason, TreeHit, TreeNode, TreeShading};
+use crate::{
+    model::bsdf::LobeView,
+    probe::{RayKind, StopReason, TreeHit, TreeNode, TreeShading},
+    spectrum::{Basis, Spectrum},
+};
 
 use super::{
     super::{
         bodies::present,
         part::{is_cast, is_matte, is_straight},
-        words::{color, degrees_of, light, list, number, percent, rgb},
+        words::{color, degrees_of, lanes, list, number, percent},
     },
     Teller,
 };
@@ -43,7 +46,7 @@ impl Teller<'_> {
         let node = self.node(index);
         let ray = self.ray(index);
         let Some(hit) = &node.hit else {
-            let result = light(node.result);
+            let result = self.lanes(node.result);
             return match node.result.is_black() {
                 true => format!("{ray} leaves the scene without meeting anything, and nothing shines there."),
                 false => {
@@ -55,7 +58,7 @@ impl Teller<'_> {
         let material = self.prepared.material_name(object.material);
         let side = if hit.from_outside { "outside" } else { "inside" };
         let length = number(f64::from(hit.hit.t) * f64::from(node.d.length()));
-        let lobes = node.shading.as_ref().map(lobes).filter(|l| !l.is_empty());
+        let lobes = node.shading.as_ref().map(|s| lobes(&self.tree.basis, s)).filter(|l| !l.is_empty());
         let lobes = lobes.map(|l| format!(": {}", list(&l))).unwrap_or_default();
         format!(
             "{ray} meets the {side} of \"{}\" (material \"{material}\"{lobes}) after {length} m, {} degrees off its normal.",
@@ -77,6 +80,8 @@ impl Teller<'_> {
             RayKind::GlossyReflection => "gloss ray",
             RayKind::GlossyRefraction => "scattered ray",
             RayKind::Passing => "ray that goes on",
+            RayKind::Connection => "joint",
+            RayKind::Photon => "particle",
         };
         let brings = match self.share(node) {
             share if share > 0.0 => format!(", which brings {},", percent(share)),
@@ -88,10 +93,13 @@ impl Teller<'_> {
     /// What ray casting makes of a hit, of which it follows no ray.
     fn cast(&self, node: &TreeNode, shading: &TreeShading) -> Option<String> {
         if self.prepared.rules.get("show").and_then(|v| v.as_str()) == Some("albedo") {
-            return Some(format!("The picture shows the colour of the material: {}.", light(node.local)));
+            return Some(format!(
+                "The picture shows the colour of the material: {}.",
+                self.lanes(node.local)
+            ));
         }
-        let parts = [shading.emission, shading.ambient, shading.blurred_sky].map(rgb);
-        let all = rgb(node.local);
+        let parts = [shading.emission, shading.ambient, shading.blurred_sky].map(|s| self.rgb(s));
+        let all = self.rgb(node.local);
         let lamps: [f64; 3] =
             std::array::from_fn(|i| (all[i] - parts.iter().map(|p| p[i]).sum::<f64>()).max(0.0));
         Some(format!(
@@ -103,31 +111,34 @@ impl Teller<'_> {
 
     /// Absorption on the way of a ray to its hit.
     fn absorbed(&self, node: &TreeNode, hit: &TreeHit, shading: &TreeShading) -> Option<String> {
-        let arrived = rgb(shading.arrived);
-        if arrived == [1.0; 3] {
+        let arrived = shading.arrived;
+        if arrived == Spectrum::ONE {
             return None;
         }
         let media = &self.prepared.scene.media;
         let length = (hit.p.to_f64() - node.path.from.to_f64()).length();
-        let id = present(media, &node.path.media).1.filter(|&id| media.get(id).absorbs());
+        let id = present(media, &self.tree.basis, &node.path.media).1.filter(|&id| media.get(id).absorbs());
         let Some(id) = id else {
             return Some(format!(
                 "Whitted's attenuation by distance leaves {} of its light.",
-                color(arrived)
+                self.lanes(arrived)
             ));
         };
-        let sigma = media.get(id).absorption.rgb.map(f64::from);
-        let left = sigma.map(|s| (-s * length).exp());
-        let more = (0..3).any(|i| (left[i] - arrived[i]).abs() > 2e-3);
-        let more =
-            if more { format!("; with attenuation by distance {}", color(arrived)) } else { String::new() };
+        let sigma = self.tree.basis.unbounded(media.get(id).absorption);
+        let left = sigma.map(|s| (-f64::from(s) * length).exp() as f32);
+        let more = left.zip(arrived, |left, arrived| (left - arrived).abs()).max() > 2e-3;
+        let more = if more {
+            format!("; with attenuation by distance {}", self.lanes(arrived))
+        } else {
+            String::new()
+        };
         Some(format!(
             "On {} m through {} absorption leaves exp(-sigma d) = exp(-{} x {}) = {} of the light (Beer and Lambert){more}.",
             number(length),
             self.body(id),
-            color(sigma),
+            self.lanes(sigma),
             number(length),
-            color(left)
+            self.lanes(left)
         ))
     }
 
@@ -140,24 +151,23 @@ impl Teller<'_> {
 
     /// Emission, ambient term and blurred sky.
     fn own(&self, node: &TreeNode, hit: &TreeHit, shading: &TreeShading) -> Vec<String> {
-        let share = rgb(node.throughput);
-        let adds = |v: [f64; 3]| self.of_pixel(std::array::from_fn(|i| share[i] * v[i]));
+        let adds = |s: Spectrum| self.of_pixel(self.rgb(node.throughput * s));
         let mut sentences = Vec::new();
-        let emission = rgb(shading.emission);
-        if emission != [0.0; 3] {
+        let emission = shading.emission;
+        if !emission.is_black() {
             let name = &self.prepared.scene.object(hit.object).name;
             let mis = node.chosen.and_then(|c| c.mis).filter(|m| *m < 1.0);
             let mis =
                 mis.map(|m| format!(" (of it {}, as shadow rays bring the rest)", percent(f64::from(m))));
             sentences.push(format!(
                 "\"{name}\" shines by itself: L = {}{}{}.",
-                color(emission),
+                self.lanes(emission),
                 mis.unwrap_or_default(),
                 adds(emission)
             ));
         }
-        let ambient = rgb(shading.ambient);
-        if ambient != [0.0; 3] {
+        let ambient = shading.ambient;
+        if !ambient.is_black() {
             let of = shading
                 .lobes
                 .iter()
@@ -171,19 +181,19 @@ impl Teller<'_> {
                     (diffuse.fold(Default::default(), |a, b| a + b), "kd")
                 }
             };
-            let k = rgb(k * shading.arrived);
-            let around: [f64; 3] = std::array::from_fn(|i| if k[i] > 0.0 { ambient[i] / k[i] } else { 0.0 });
+            let k = k * shading.arrived;
+            let around = ambient.zip(k, |ambient, k| if k > 0.0 { ambient / k } else { 0.0 });
             sentences.push(format!(
                 "The ambient term is {name} x surroundings = {} x {} = {}{}.",
-                color(k),
-                color(around),
-                color(ambient),
+                self.lanes(k),
+                self.lanes(around),
+                self.lanes(ambient),
                 adds(ambient)
             ));
         }
-        let sky = rgb(shading.blurred_sky);
-        if sky != [0.0; 3] {
-            sentences.push(format!("Its gloss shows the sky blurred: {}{}.", color(sky), adds(sky)));
+        let sky = shading.blurred_sky;
+        if !sky.is_black() {
+            sentences.push(format!("Its gloss shows the sky blurred: {}{}.", self.lanes(sky), adds(sky)));
         }
         sentences
     }
@@ -193,7 +203,7 @@ impl Teller<'_> {
         let mut all: Vec<usize> = self.children[index]
             .iter()
             .map(|&c| c as usize)
-            .filter(|&c| !matches!(self.node(c).kind, RayKind::Shadow | RayKind::Passing))
+            .filter(|&c| self.node(c).kind.is_followed() && self.node(c).kind != RayKind::Passing)
             .filter(|&c| self.node(c).stop != Some(StopReason::TirNoRefraction))
             .collect();
         all.sort_by(|&a, &b| self.share(self.node(b)).total_cmp(&self.share(self.node(a))));
@@ -215,14 +225,12 @@ impl Teller<'_> {
             RayKind::GlossyReflection => "A gloss ray",
             _ => "A scattered ray",
         };
-        let weight = light(node.weight);
+        let weight = self.lanes(node.weight);
         if let Some(reason) = self.given_up(node) {
             return format!("{what} would weigh {weight}, but is not traced: {reason}.");
         }
-        let (w, r) = (rgb(node.weight), rgb(node.result));
-        let product: [f64; 3] = std::array::from_fn(|i| w[i] * r[i]);
-        let share = rgb(node.throughput);
-        let of = self.of_pixel(std::array::from_fn(|i| share[i] * r[i]));
+        let (r, product) = (self.lanes(node.result), self.lanes(node.weight * node.result));
+        let of = self.of_pixel(self.rgb(node.throughput * node.result));
         let meets = match &node.hit {
             Some(hit) => format!("meets \"{}\"", self.prepared.scene.object(hit.object).name),
             None if node.result.is_black() => "leaves the scene".to_owned(),
@@ -233,13 +241,9 @@ impl Teller<'_> {
         }
         let drawn = self.drawn(node);
         if self.share(node) < WORTH && self.whole > 0.0 {
-            return format!("{what} {meets} and brings {weight} x {} = {}{of}.", color(r), color(product));
+            return format!("{what} {meets} and brings {weight} x {r} = {product}{of}.");
         }
-        format!(
-            "{what} {meets} and brings weight x light = {weight} x {} = {}{of}{drawn}.",
-            color(r),
-            color(product)
-        )
+        format!("{what} {meets} and brings weight x light = {weight} x {r} = {product}{of}{drawn}.")
     }
 
     /// How the weight of a drawn ray came about.
@@ -251,7 +255,7 @@ impl Teller<'_> {
         let rays = if chosen.rays > 1 { format!(" / {} rays", chosen.rays) } else { String::new() };
         format!(
             "; its weight is f cos / p = {} x {} / {}{rays}",
-            light(f),
+            self.lanes(f),
             number(cos.into()),
             number(pdf.into())
         )
@@ -280,9 +284,9 @@ impl Teller<'_> {
 }
 
 /// The lobes in words.
-fn lobes(shading: &TreeShading) -> Vec<String> {
+fn lobes(basis: &Basis, shading: &TreeShading) -> Vec<String> {
     let of = |l: &LobeView| {
-        let [r, t] = [l.reflectance, l.transmittance].map(light);
+        let [r, t] = [l.reflectance, l.transmittance].map(|s| lanes(basis, s));
         match l.name {
             "diffuse" => format!("diffuse kd {r}"),
             "ambient" => format!("ambient ka {r}"),

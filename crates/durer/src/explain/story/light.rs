@@ -4,12 +4,13 @@ use crate::{
     math::Vector3,
     model::bsdf::LobeView,
     probe::{StopReason, TreeHit, TreeNode, TreeShading},
+    spectrum::{Basis, Spectrum},
 };
 
 use super::{
     super::{
         part::light_name,
-        words::{color, counted, degrees, degrees_of, light, number, rgb},
+        words::{counted, degrees, degrees_of, each, lanes, number},
     },
     Teller,
 };
@@ -45,18 +46,14 @@ impl Teller<'_> {
             sorted.iter().take(RAYS).map(|n| self.shadow_ray(parent, n, name)).collect();
         if rays.len() > RAYS {
             let lit = rays.iter().filter(|n| n.light.is_some_and(|l| l.visible)).count();
-            let sum = rays.iter().fold([0.0; 3], |mut sum: [f64; 3], node| {
-                let (share, result) = (rgb(node.throughput), rgb(node.result));
-                (0..3).for_each(|i| sum[i] += share[i] * result[i]);
-                sum
-            });
+            let sum = rays.iter().fold(Spectrum::BLACK, |sum, node| sum + node.throughput * node.result);
             sentences.push(match lit {
                 0 => format!("Nor does any other of its {} arrive.", counted(rays.len(), "shadow ray")),
                 _ => format!(
                     "In all, {lit} of {} reach \"{name}\" and bring {}{}.",
                     counted(rays.len(), "shadow ray"),
-                    color(sum),
-                    self.of_pixel(sum)
+                    self.lanes(sum),
+                    self.of_pixel(self.rgb(sum))
                 ),
             });
         }
@@ -71,9 +68,11 @@ impl Teller<'_> {
         let n = facing(hit, parent.d);
         let cos = n.dot(wi);
         let off = degrees_of(cos);
-        let would = rgb(node.weight * event.unoccluded);
-        let would =
-            if would == [0.0; 3] { String::new() } else { format!("; free it would add {}", color(would)) };
+        let would = node.weight * event.unoccluded;
+        let would = match would.is_black() {
+            true => String::new(),
+            false => format!("; free it would add {}", self.lanes(would)),
+        };
         if !event.visible {
             return match (node.stop, event.blocker) {
                 (Some(StopReason::LightBehindSurface), _) => {
@@ -106,12 +105,11 @@ impl Teller<'_> {
                 "Light \"{name}\" arrives {far}{off} degrees off the normal, but next to nothing of it goes this way."
             );
         }
-        let adds = rgb(node.weight * node.result);
-        let share = rgb(node.throughput * node.result);
+        let share = self.rgb(node.throughput * node.result);
         format!(
             "Light \"{name}\" arrives {far}{off} degrees off the normal: {} = {}{}.",
             self.formula(parent, node, shading, (n, wi)),
-            color(adds),
+            self.lanes(node.weight * node.result),
             self.of_pixel(share)
         )
     }
@@ -125,10 +123,11 @@ impl Teller<'_> {
         (n, wi): (DVec3, DVec3),
     ) -> String {
         let cos = n.dot(wi).abs();
-        let (e_symbol, e) = irradiance(node);
+        let basis = &self.tree.basis;
+        let (e_symbol, e) = irradiance(basis, node);
         let f = Reflectance::of(shading, node, (n, wi, -parent.d.to_f64().normalize_or_zero()));
-        let (symbols, numbers) = f.words();
-        let (more_symbols, more) = factors(node, shading);
+        let (symbols, numbers) = f.words(basis);
+        let (more_symbols, more) = factors(basis, node, shading);
         format!("{symbols} {e_symbol} cos a{more_symbols} = {numbers} x {e} x {}{more}", number(cos))
     }
 }
@@ -140,31 +139,32 @@ fn facing(hit: &TreeHit, d: Vector3) -> DVec3 {
 }
 
 /// What arrives: irradiance, or of lights with extent radiance by density.
-fn irradiance(node: &TreeNode) -> (String, String) {
+fn irradiance(basis: &Basis, node: &TreeNode) -> (String, String) {
     let Some(event) = &node.light else { return Default::default() };
-    let passed = rgb(event.passed);
     let through = |text: String| {
-        if passed == [1.0; 3] { text } else { format!("{text} x {} (what its way leaves)", color(passed)) }
+        if event.passed == Spectrum::ONE {
+            return text;
+        }
+        format!("{text} x {} (what its way leaves)", lanes(basis, event.passed))
     };
     match node.chosen.and_then(|c| c.pdf) {
         Some(pdf) => {
-            let radiance = rgb(event.unoccluded).map(|v| v * f64::from(pdf));
-            ("L / p".to_owned(), through(format!("{} / {}", color(radiance), number(pdf.into()))))
+            let radiance = event.unoccluded * pdf;
+            ("L / p".to_owned(), through(format!("{} / {}", lanes(basis, radiance), number(pdf.into()))))
         }
-        None => ("E".to_owned(), through(light(event.unoccluded))),
+        None => ("E".to_owned(), through(lanes(basis, event.unoccluded))),
     }
 }
 
 /// Factors beside reflectance, light and cosine.
-fn factors(node: &TreeNode, shading: &TreeShading) -> (String, String) {
+fn factors(basis: &Basis, node: &TreeNode, shading: &TreeShading) -> (String, String) {
     let (mut symbols, mut numbers) = (String::new(), String::new());
     let mut add = |symbol: &str, text: String| {
         symbols += symbol;
         numbers += &text;
     };
-    let arrived = rgb(shading.arrived);
-    if arrived != [1.0; 3] {
-        add(" T", format!(" x {}", color(arrived)));
+    if shading.arrived != Spectrum::ONE {
+        add(" T", format!(" x {}", lanes(basis, shading.arrived)));
     }
     if let Some(chosen) = &node.chosen {
         if let Some(mis) = chosen.mis.filter(|m| *m < 0.9995) {
@@ -182,42 +182,48 @@ fn factors(node: &TreeNode, shading: &TreeShading) -> (String, String) {
 
 /// The value of the lobes for a pair of directions, divided into what formulas there are for.
 struct Reflectance {
-    diffuse: [f64; 3],
+    diffuse: [f64; 4],
     /// `ks`, `n`, the cosine to the halfway vector and the cosine to the light.
-    highlight: Option<([f64; 3], f64, f64, f64)>,
+    highlight: Option<([f64; 4], f64, f64, f64)>,
     /// What microfacets and others make of the rest, and their name.
-    others: Option<(String, [f64; 3])>,
+    others: Option<(String, [f64; 4])>,
 }
 
 impl Reflectance {
     fn of(shading: &TreeShading, node: &TreeNode, (n, wi, wo): (DVec3, DVec3, DVec3)) -> Self {
         let sum = |name: &str| {
-            let all = shading.lobes.iter().filter(|l| l.name == name).map(|l| rgb(l.reflectance));
-            all.fold([0.0; 3], |a: [f64; 3], b| std::array::from_fn(|i| a[i] + b[i]))
+            let all =
+                shading.lobes.iter().filter(|l| l.name == name).map(|l| l.reflectance.lanes().map(f64::from));
+            all.fold([0.0; 4], |a: [f64; 4], b| std::array::from_fn(|i| a[i] + b[i]))
         };
         let is_same_side = n.dot(wi) > 0.0;
-        let diffuse = if is_same_side { sum("diffuse") } else { [0.0; 3] };
+        let diffuse = if is_same_side { sum("diffuse") } else { [0.0; 4] };
         let highlight = shading.lobes.iter().find(|l| l.name == "specular" && is_same_side).map(|l| {
             let half = (wi + wo).normalize_or_zero();
-            (rgb(l.reflectance), f64::from(l.exponent.unwrap_or(0.0)), n.dot(half).abs().min(1.0), n.dot(wi))
+            (
+                l.reflectance.lanes().map(f64::from),
+                f64::from(l.exponent.unwrap_or(0.0)),
+                n.dot(half).abs().min(1.0),
+                n.dot(wi),
+            )
         });
-        let arrived = rgb(shading.arrived);
-        let f = node.chosen.and_then(|c| c.f).map(rgb).unwrap_or_default();
+        let arrived = shading.arrived.lanes().map(f64::from);
+        let f = node.chosen.and_then(|c| c.f).map(|f| f.lanes().map(f64::from)).unwrap_or_default();
         let told = Self { diffuse, highlight, others: None };
         // Two thousandths of the whole are rounding, and MIS weights that differ from lobe to lobe.
-        let rest: [f64; 3] =
+        let rest: [f64; 4] =
             std::array::from_fn(|i| if arrived[i] > 0.0 { f[i] / arrived[i] - told.named(i) } else { 0.0 });
-        let is_off = (0..3).any(|i| rest[i].abs() > 2e-3 * (told.named(i) + rest[i].abs()).max(1e-9));
+        let is_off = (0..4).any(|i| rest[i].abs() > 2e-3 * (told.named(i) + rest[i].abs()).max(1e-9));
         if !is_off {
             return told;
         }
-        let is_negative = (0..3).any(|i| rest[i] < -2e-3 * told.named(i).max(1e-9));
+        let is_negative = (0..4).any(|i| rest[i] < -2e-3 * told.named(i).max(1e-9));
         let others = shading.lobes.iter().find(|l| !matches!(l.name, "diffuse" | "specular" | "ambient"));
         if is_negative {
             // Lobes that count less than in full beside rays of their own.
-            let all: [f64; 3] =
+            let all: [f64; 4] =
                 std::array::from_fn(|i| if arrived[i] > 0.0 { f[i] / arrived[i] } else { 0.0 });
-            return Self { diffuse: [0.0; 3], highlight: None, others: Some(("f".to_owned(), all)) };
+            return Self { diffuse: [0.0; 4], highlight: None, others: Some(("f".to_owned(), all)) };
         }
         Self { others: Some((others.map_or_else(|| "f".to_owned(), name), rest)), ..told }
     }
@@ -231,12 +237,12 @@ impl Reflectance {
     }
 
     /// Symbols, and the numbers in their places.
-    fn words(&self) -> (String, String) {
+    fn words(&self, basis: &Basis) -> (String, String) {
         let mut symbols = Vec::new();
         let mut numbers = Vec::new();
-        if self.diffuse != [0.0; 3] {
+        if self.diffuse != [0.0; 4] {
             symbols.push("kd / pi".to_owned());
-            numbers.push(format!("{} / 3.142", color(self.diffuse)));
+            numbers.push(format!("{} / 3.142", each(basis, self.diffuse)));
         }
         if let Some((ks, n, cos_h, cos)) = self.highlight
             && cos_h.powf(n) > 1e-4
@@ -244,7 +250,7 @@ impl Reflectance {
             symbols.push("ks cos^n h / (pi cos a)".to_owned());
             numbers.push(format!(
                 "{} x cos^{}({} degrees) / (3.142 x {})",
-                color(ks),
+                each(basis, ks),
                 number(n),
                 degrees(cos_h.acos()),
                 number(cos)
@@ -252,7 +258,7 @@ impl Reflectance {
         }
         if let Some((name, f)) = &self.others {
             symbols.push(name.clone());
-            numbers.push(color(*f));
+            numbers.push(each(basis, *f));
         }
         match symbols.len() {
             0 => ("f".to_owned(), "0".to_owned()),

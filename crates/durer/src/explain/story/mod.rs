@@ -8,14 +8,15 @@ mod rest;
 
 use crate::{
     Prepared,
-    probe::{RayKind, RayTree, TreeNode},
+    probe::{RayTree, TreeNode},
+    spectrum::Spectrum,
     tree::Subject,
 };
 
 use super::{
     Explanation, Sample,
     explanation::Paragraph,
-    words::{luminance, percent, rgb},
+    words::{lanes, luminance, percent, rgb, tint},
 };
 
 /// Surfaces along the brightest way that everybody is told of.
@@ -68,12 +69,19 @@ impl<'a> Teller<'a> {
     }
     /// What a ray brings of the sample's light, 0 to 1.
     fn share(&self, node: &TreeNode) -> f64 {
-        let (share, result) = (rgb(node.throughput), rgb(node.result));
-        self.share_of(std::array::from_fn(|i| share[i] * result[i]))
+        self.share_of(self.rgb(node.throughput * node.result))
     }
     /// What makes a ray worth following: what it brings, or could have brought if nothing comes from anywhere.
     fn rank(&self, node: &TreeNode) -> f64 {
-        if self.whole > 0.0 { self.share(node) } else { luminance(rgb(node.throughput)) }
+        if self.whole > 0.0 { self.share(node) } else { luminance(tint(&self.tree.basis, node.throughput)) }
+    }
+    /// The colour of light.
+    fn rgb(&self, s: Spectrum) -> [f64; 3] {
+        rgb(&self.tree.basis, s)
+    }
+    /// What rays carry, lane by lane.
+    fn lanes(&self, s: Spectrum) -> String {
+        lanes(&self.tree.basis, s)
     }
     fn share_of(&self, v: [f64; 3]) -> f64 {
         if self.whole > 0.0 { luminance(v) / self.whole } else { 0.0 }
@@ -111,7 +119,7 @@ impl<'a> Teller<'a> {
             let mut next: Vec<usize> = self.children[index]
                 .iter()
                 .map(|&c| c as usize)
-                .filter(|&c| self.node(c).kind != RayKind::Shadow && self.node(c).is_traced())
+                .filter(|&c| self.node(c).kind.is_followed() && self.node(c).is_traced())
                 .filter(|&c| self.node(c).hit.is_some() && self.rank(self.node(c)) >= WORTH_DETAIL)
                 .collect();
             next.sort_by(|&a, &b| self.rank(self.node(a)).total_cmp(&self.rank(self.node(b))));

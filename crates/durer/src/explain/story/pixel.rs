@@ -41,6 +41,14 @@ pub(super) fn summary(
             sentences.push(format!("{of} is {value}; this tells of {told} of its {count} samples."));
         }
     }
+    if let Some(wavelengths) = detailed.tree.basis.wavelengths() {
+        let nm: Vec<String> = wavelengths.nm().map(|nm| format!("{nm:.1}")).to_vec();
+        sentences.push(format!(
+            "Rays of sample {} carry light of {} nm: where four numbers stand they are of these.",
+            detailed.number,
+            list(&nm)
+        ));
+    }
     if !detailed.is_finite() && bad == 0 {
         sentences.push("The film leaves such a sample out.".to_owned());
     }

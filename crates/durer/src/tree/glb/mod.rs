@@ -2,8 +2,6 @@
 //!
 //! glTF is right-handed. A world whose camera is left-handed (pbrt's) is mirrored at x = 0, so that what was on the right
 //! of the picture stays there.
-mod buffer;
-
 use serde_json::{Value, json};
 
 use crate::glam::{DAffine3, DMat3, DVec3};
@@ -15,7 +13,7 @@ use super::{
     number::Place,
     page::Page,
 };
-use buffer::Buffer;
+use crate::glb::bin::{Bin, container};
 
 /// Why no file was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +29,7 @@ impl std::error::Error for TooLarge {}
 
 /// A scene on its way into a file.
 struct Writer {
-    buffer: Buffer,
+    buffer: Bin,
     meshes: Vec<Value>,
     materials: Vec<Value>,
     nodes: Vec<Value>,
@@ -51,7 +49,7 @@ pub fn glb(page: &Page) -> Result<Vec<u8>, TooLarge> {
     let left_handed = camera.is_some_and(|c| axis(c.right).cross(axis(c.up)).dot(axis(c.look)) > 0.0);
     let first = page.trees.iter().flat_map(|t| &t.nodes).next().map(|n| vector(n.origin)).unwrap_or_default();
     let mut writer = Writer {
-        buffer: Buffer::default(),
+        buffer: Bin::default(),
         meshes: Vec::new(),
         materials: Vec::new(),
         nodes: Vec::new(),
@@ -101,7 +99,8 @@ impl Writer {
         indices: &[u32],
         (mode, material): (u8, usize),
     ) -> usize {
-        let (positions, indices) = (self.buffer.positions(points), self.buffer.indices(indices));
+        let (positions, indices) =
+            (self.buffer.positions(points), self.buffer.indices(indices.iter().copied()));
         let primitive = json!({
             "attributes": { "POSITION": positions }, "indices": indices, "mode": mode, "material": material
         });
@@ -209,7 +208,7 @@ impl Writer {
     }
 
     fn finish(self) -> Result<Vec<u8>, TooLarge> {
-        let Buffer { bytes, views, accessors } = self.buffer;
+        let Bin { bytes, views, accessors } = self.buffer;
         let mut nodes = self.nodes;
         let roots: Vec<usize> = (0..nodes.len()).collect();
         let has_camera = nodes.iter().any(|n| n.get("camera").is_some());
@@ -245,7 +244,7 @@ impl Writer {
         if !bytes.is_empty() {
             document["buffers"] = json!([{ "byteLength": bytes.len() }]);
         }
-        buffer::container(&document, &bytes).ok_or(TooLarge)
+        container(&document, &bytes).ok_or(TooLarge)
     }
 }
 

@@ -1,5 +1,24 @@
-//! Meshes of other formats as triangle meshes of the language.
+//! Meshes of other formats as triangle meshes of the language, or in files of their own.
 use durer_scene::{Data, Mesh, Node, Params, ValueType};
+
+use crate::export::{Content, beside::Gathered, ply};
+
+/// Triangles of a mesh that is not in the way of those who read the text.
+const FEW: usize = 2000;
+
+/// Writes a mesh that is large, or that `several` shapes have, into a file: those that name the same file share what is
+/// built from it. `None` if it belongs into the text.
+pub(super) fn file(
+    mesh: &Mesh,
+    several: bool,
+    (gathered, number): (&mut Gathered<'_>, usize),
+) -> Option<Node> {
+    if mesh.indices.len() <= FEW && !several {
+        return None;
+    }
+    let path = gathered.add(&format!("mesh-{number}.ply"), Content::Bytes(ply::bytes(mesh)?.into()));
+    Some(Node::new("plymesh", Params::new().string("filename", &path)))
+}
 
 /// The shape; an error says what of the mesh the language has no words for.
 pub(super) fn node(mesh: &Mesh) -> Result<Node, String> {

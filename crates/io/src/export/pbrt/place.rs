@@ -35,12 +35,12 @@ impl Times {
         self.0
     }
 
-    /// The matrices of a motion, each changed by `map`.
-    pub(super) fn frame(self, motion: &Motion, map: fn(&DAffine3) -> DAffine3) -> Frame {
+    /// The matrices of a motion.
+    pub(super) fn frame(self, motion: &Motion) -> Frame {
         match motion.keys() {
-            _ if motion.is_still() => Frame::Still(map(&motion.at(0.0))),
-            [(start, a), (end, b)] if Some((*start, *end)) == self.0 => Frame::Moving(map(a), map(b)),
-            keys => Frame::Keyed(keys.iter().map(|(time, m)| (*time, map(m))).collect()),
+            _ if motion.is_still() => Frame::Still(motion.at(0.0)),
+            [(start, a), (end, b)] if Some((*start, *end)) == self.0 => Frame::Moving(*a, *b),
+            keys => Frame::Keyed(keys.to_vec()),
         }
     }
 }
@@ -48,13 +48,27 @@ impl Times {
 impl Frame {
     /// Appends the directives.
     pub(super) fn write(&self, text: &mut String) {
+        self.with(text, |m, text| matrix("Transform", m, text));
+    }
+
+    /// Appends the directives of the way back.
+    pub(super) fn write_inverse(&self, text: &mut String) {
         match self {
-            Self::Still(m) => matrix(m, text),
+            Self::Keyed(keys) => {
+                Self::Keyed(keys.iter().map(|(time, m)| (*time, m.inverse())).collect()).write(text);
+            }
+            _ => self.with(text, inverse),
+        }
+    }
+
+    fn with(&self, text: &mut String, one: fn(&DAffine3, &mut String)) {
+        match self {
+            Self::Still(m) => one(m, text),
             Self::Moving(start, end) => {
                 text.push_str("ActiveTransform StartTime\n");
-                matrix(start, text);
+                one(start, text);
                 text.push_str("ActiveTransform EndTime\n");
-                matrix(end, text);
+                one(end, text);
                 text.push_str("ActiveTransform All\n");
             }
             Self::Keyed(keys) => {
@@ -75,14 +89,20 @@ impl Frame {
     }
 }
 
-fn matrix(m: &DAffine3, text: &mut String) {
+/// The inverse of `m`, so that its own inverse is `m`.
+fn inverse(m: &DAffine3, text: &mut String) {
+    let back = m.inverse();
+    if back.inverse() == *m { matrix("Transform", &back, text) } else { matrix("InverseTransform", m, text) }
+}
+
+fn matrix(directive: &str, m: &DAffine3, text: &mut String) {
     if *m == DAffine3::IDENTITY {
         text.push_str("Identity\n");
         return;
     }
     let [x, y, z] = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis].map(|v| v.to_array());
     let t = m.translation.to_array();
-    text.push_str("Transform [");
+    let _ = write!(text, "{directive} [");
     for (column, w) in [(x, 0), (y, 0), (z, 0), (t, 1)] {
         let [a, b, c] = column;
         let _ = write!(text, " {a} {b} {c} {w}");

@@ -3,7 +3,7 @@ use std::fmt::{Display, Write};
 
 use durer_scene::{Data, Node, ValueType};
 
-use crate::FileAssets;
+use crate::export::beside::Gathered;
 
 /// Values on a line.
 const PER_LINE: usize = 12;
@@ -27,7 +27,7 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 /// Appends the parameters of a node; returns what cannot be written.
-pub(super) fn params(node: &Node, assets: &FileAssets, text: &mut String) -> Vec<String> {
+pub(super) fn params(node: &Node, gathered: &mut Gathered<'_>, text: &mut String) -> Vec<String> {
     let mut refused = Vec::new();
     for param in node.params.iter() {
         let name = &param.name;
@@ -46,11 +46,17 @@ pub(super) fn params(node: &Node, assets: &FileAssets, text: &mut String) -> Vec
                 list(v.iter(), text);
             }
             Data::Strings(v) => {
-                if let Some(file) = v.iter().find(|v| param.ty == ValueType::String && assets.is_embedded(v))
-                {
-                    refused.push(format!("\"{name}\" is the file {file}, which lies within the scene file"));
-                }
-                list(v.iter().map(|v| quoted(v)), text);
+                // What is read from a file is a text or the name of a spectrum.
+                let file = matches!(param.ty, ValueType::String | ValueType::Spectrum);
+                let mut called = |v: &String| match gathered.path_of(v) {
+                    Ok(path) => path.unwrap_or_else(|| v.clone()),
+                    Err(why) => {
+                        refused.push(format!("\"{name}\": {why}"));
+                        v.clone()
+                    }
+                };
+                let names = v.iter().map(|v| if file { called(v) } else { v.clone() });
+                list(names.map(|name| quoted(&name)), text);
             }
         }
         text.push_str(" ]");

@@ -79,7 +79,7 @@ pub(super) struct Accessor<'b, 'a> {
 /// `count` elements of `size` bytes in the view that the member `bufferView` of `from` names.
 fn strided<'b, 'a>(
     document: &Document<'a>,
-    buffers: &'b Buffers<'a>,
+    buffers: &'b Buffers,
     from: &Element<'a>,
     count: usize,
     size: usize,
@@ -112,17 +112,13 @@ impl<'b, 'a> Accessor<'b, 'a> {
     /// The accessor that `reference` names by index.
     pub(super) fn open(
         document: &Document<'a>,
-        buffers: &'b Buffers<'a>,
+        buffers: &'b Buffers,
         reference: &Element<'a>,
     ) -> Checked<Self> {
         Self::at(document, buffers, document.item("accessors", reference)?)
     }
     /// The accessor `element`.
-    pub(super) fn at(
-        document: &Document<'a>,
-        buffers: &'b Buffers<'a>,
-        element: Element<'a>,
-    ) -> Checked<Self> {
+    pub(super) fn at(document: &Document<'a>, buffers: &'b Buffers, element: Element<'a>) -> Checked<Self> {
         let component = Component::parse(&element.required("componentType")?)?;
         let shape = element.required("type")?;
         let (columns, rows) = match shape.text()? {
@@ -179,6 +175,17 @@ impl<'b, 'a> Accessor<'b, 'a> {
             Component::U32 => self.gather(n, |b: [u8; 4]| u32::from_le_bytes(b) as f32 * u32s),
             Component::F32 => self.gather(n, f32::from_le_bytes),
         }
+    }
+
+    /// All numbers of scalars or vectors, one after another, as [`Self::floats`] reads them.
+    pub(super) fn numbers(&self, document: &Document<'a>) -> Checked<Vec<f32>> {
+        Ok(match self.lanes {
+            1 => self.floats::<1>(document, None)?.into_flattened(),
+            2 => self.floats::<2>(document, None)?.into_flattened(),
+            3 => self.floats::<3>(document, None)?.into_flattened(),
+            4 => self.floats::<4>(document, None)?.into_flattened(),
+            _ => return Err(self.element.fault("expected scalars or vectors")),
+        })
     }
 
     /// All elements, or those that `which` names, of an accessor that holds indices: into vertices or joints.
@@ -255,7 +262,7 @@ impl Strided<'_> {
 impl<'b, 'a> Sparse<'b, 'a> {
     fn open(
         document: &Document<'a>,
-        buffers: &'b Buffers<'a>,
+        buffers: &'b Buffers,
         element: Element<'a>,
         most: usize,
         size: usize,

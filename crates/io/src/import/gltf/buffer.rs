@@ -1,5 +1,5 @@
 //! Buffers: the binary chunk of a GLB, `data:` URIs and files; and views into them.
-use std::{borrow::Cow, sync::Arc};
+use std::{borrow::Cow, ops::Range, sync::Arc};
 
 use base64::{
     Engine, alphabet,
@@ -11,8 +11,9 @@ use rayon::prelude::*;
 
 use super::{
     accessor::Accessor,
-    document::Document,
+    document::{Document, only},
     element::{Checked, Element, Fault},
+    meshopt::{self, Packed},
 };
 use crate::FileAssets;
 
@@ -53,16 +54,26 @@ pub(super) fn parse_uri<'a>(element: &Element<'a>) -> Checked<Uri<'a>> {
     Ok(Uri::Data(bytes))
 }
 
-enum Bytes<'a> {
-    Chunk(&'a [u8]),
+/// The binary chunk of a GLB.
+#[derive(Clone, Debug)]
+pub(super) struct Chunk {
+    /// The whole file.
+    pub(super) bytes: Arc<Vec<u8>>,
+    /// Where the chunk is.
+    pub(super) range: Range<usize>,
+}
+
+#[derive(Debug)]
+enum Bytes {
+    Chunk(Chunk),
     Owned(Vec<u8>),
     File(Arc<[u8]>),
 }
 
-impl Bytes<'_> {
+impl Bytes {
     fn as_slice(&self) -> &[u8] {
         match self {
-            Self::Chunk(bytes) => bytes,
+            Self::Chunk(chunk) => chunk.bytes.get(chunk.range.clone()).unwrap_or_default(),
             Self::Owned(bytes) => bytes,
             Self::File(bytes) => bytes,
         }
@@ -70,8 +81,11 @@ impl Bytes<'_> {
 }
 
 /// All buffers of a document. One whose bytes are not there is complained about when it is used.
-pub(super) struct Buffers<'a> {
-    list: Vec<Checked<Bytes<'a>>>,
+#[derive(Debug)]
+pub(super) struct Buffers {
+    list: Vec<Checked<Bytes>>,
+    /// By buffer view: what those unpack to that are packed.
+    unpacked: Vec<Option<Checked<Vec<u8>>>>,
 }
 
 /// A stretch of a buffer.
@@ -87,19 +101,43 @@ pub(super) struct View<'b, 'a> {
     pub(super) element: Element<'a>,
 }
 
-impl<'a> Buffers<'a> {
+impl Buffers {
     /// Loads every buffer; `bin` is the binary chunk.
-    pub(super) fn load(document: &Document<'a>, bin: Option<&'a [u8]>, assets: &FileAssets) -> Checked<Self> {
+    pub(super) fn load(document: &Document<'_>, bin: Option<&Chunk>, assets: &FileAssets) -> Checked<Self> {
         let buffers = document.root.list("buffers")?.into_par_iter().enumerate();
         let load = |(index, element)| load(&element, bin.filter(|_| index == 0), assets);
         let loaded: Vec<_> = buffers.map(load).collect();
-        Ok(Self { list: loaded.into_iter().collect::<Checked<_>>()? })
+        let list = loaded.into_iter().collect::<Checked<_>>()?;
+        let mut buffers = Self { list, unpacked: Vec::new() };
+        let views = document.root.list("bufferViews")?;
+        buffers.unpacked = views.into_par_iter().map(|view| buffers.unpack(&view).transpose()).collect();
+        Ok(buffers)
+    }
+    /// What a buffer view unpacks to, if it is packed.
+    fn unpack(&self, view: &Element<'_>) -> Checked<Option<Vec<u8>>> {
+        let Some(packed) = Packed::of(view)? else { return Ok(None) };
+        let element = &packed.element;
+        let buffer = element.required("buffer")?;
+        let bytes = match self.list.get(buffer.index()?) {
+            Some(Ok(bytes)) => bytes.as_slice(),
+            Some(Err(fault)) => return Err(fault.clone()),
+            None => return Err(buffer.fault(format!("there {}", only(self.list.len(), "buffers")))),
+        };
+        let start = element.index_or("byteOffset", 0)?;
+        let size = element.required("byteLength")?.index()?;
+        match bytes.get(start..start.saturating_add(size)) {
+            Some(bytes) => packed.unpack(bytes).map(Some),
+            None => {
+                let have = counted(bytes.len(), "byte");
+                Err(element.fault(format!("reaches beyond its buffer, which has {have}")))
+            }
+        }
     }
     /// Checks the ranges of all buffer views and accessors, used or not. That bytes are not there does not matter yet.
-    pub(super) fn check(&self, document: &Document<'a>) -> Checked<()> {
+    pub(super) fn check(&self, document: &Document<'_>) -> Checked<()> {
         let matters = |fault: &Fault| !self.list.iter().flat_map(|b| b.as_ref().err()).any(|f| f == fault);
-        for view in document.root.list("bufferViews")? {
-            document.keep_if(self.view_at(document, view), matters);
+        for (index, view) in document.root.list("bufferViews")?.into_iter().enumerate() {
+            document.keep_if(self.view_at(document, (view, index)), matters);
         }
         for accessor in document.root.list("accessors")? {
             document.keep_if(Accessor::at(document, self, accessor), matters);
@@ -108,11 +146,15 @@ impl<'a> Buffers<'a> {
     }
     /// Bytes of all buffers together.
     pub(super) fn total(&self) -> u64 {
-        self.list.iter().flatten().map(|b| b.as_slice().len() as u64).sum()
+        let unpacked = self.unpacked.iter().flatten().flatten().map(|bytes| bytes.len() as u64);
+        self.list.iter().flatten().map(|b| b.as_slice().len() as u64).chain(unpacked).sum()
     }
     /// Warns about buffers that could not be loaded, which nobody has used, or that would have been complained about.
-    pub(super) fn warn_of_unused(&self, document: &Document<'a>) -> Checked<()> {
+    pub(super) fn warn_of_unused(&self, document: &Document<'_>) -> Checked<()> {
         for (element, loaded) in document.root.list("buffers")?.iter().zip(&self.list) {
+            if stands_in(element)? {
+                continue;
+            }
             if let (Err(fault), false) = (loaded, document.has_errors()) {
                 document.warn(element, format!("{}; nothing uses this buffer", fault.message));
             }
@@ -120,14 +162,27 @@ impl<'a> Buffers<'a> {
         Ok(())
     }
     /// The buffer view that `reference` names by index.
-    pub(super) fn view<'b>(
+    pub(super) fn view<'b, 'a>(
         &'b self,
         document: &Document<'a>,
         reference: &Element<'a>,
     ) -> Checked<View<'b, 'a>> {
-        self.view_at(document, document.item("bufferViews", reference)?)
+        self.view_at(document, (document.item("bufferViews", reference)?, reference.index()?))
     }
-    fn view_at<'b>(&'b self, document: &Document<'a>, element: Element<'a>) -> Checked<View<'b, 'a>> {
+    fn view_at<'b, 'a>(
+        &'b self,
+        document: &Document<'a>,
+        (element, index): (Element<'a>, usize),
+    ) -> Checked<View<'b, 'a>> {
+        let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
+        if let Some(Some(unpacked)) = self.unpacked.get(index) {
+            let length = Packed::of(&element)?.map_or(0, |packed| packed.length());
+            let bytes = unpacked.as_ref().map(Vec::as_slice).map_err(Fault::clone);
+            return match bytes {
+                Ok(bytes) => Ok(View { bytes: Ok(bytes), length, stride, element }),
+                Err(fault) => Err(fault),
+            };
+        }
         let buffer = element.required("buffer")?;
         let described = document.item("buffers", &buffer)?;
         let bytes = match self.list.get(buffer.index()?) {
@@ -146,28 +201,35 @@ impl<'a> Buffers<'a> {
             return Err(element
                 .fault(format!("reaches to byte {reach}, but the buffer has {}", counted(whole, "byte"))));
         }
-        let stride = element.get("byteStride")?.map(|s| s.index()).transpose()?;
         let bytes = bytes.map(|bytes| bytes.get(start..reach).unwrap_or_default());
         Ok(View { bytes, length: size, stride, element })
     }
+}
+
+/// Whether a buffer is there for programs alone that cannot unpack: it may have no bytes.
+fn stands_in(buffer: &Element<'_>) -> Checked<bool> {
+    for name in meshopt::NAMES {
+        if let Some(extension) = buffer.extension(name)?
+            && extension.flag("fallback")?
+        {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// The bytes of a buffer, or why they are not there: that is a fault only of those who use them.
 ///
 /// # Errors
 /// If what is there is wrong.
-fn load<'a>(
-    element: &Element<'a>,
-    bin: Option<&'a [u8]>,
-    assets: &FileAssets,
-) -> Checked<Checked<Bytes<'a>>> {
+fn load(element: &Element<'_>, bin: Option<&Chunk>, assets: &FileAssets) -> Checked<Checked<Bytes>> {
     let length = element.required("byteLength")?;
     let wanted = length.index()?;
     let bytes = match element.get("uri")? {
         None => {
             let missing = "expected \"uri\" or, for the first buffer of a .glb file, a binary chunk";
             match bin {
-                Some(bin) => Bytes::Chunk(bin),
+                Some(bin) => Bytes::Chunk(bin.clone()),
                 None => return Ok(Err(element.fault(missing))),
             }
         }

@@ -15,9 +15,15 @@ fn rigid(world: &DAffine3) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(y.cross(z), y, z), translation: world.translation }
 }
 
+/// A motion with something done to each of its keys.
+fn carried(motion: &Motion, make: impl Fn(&DAffine3) -> DAffine3) -> Motion {
+    let keys = motion.keys().iter().map(|(time, m)| (*time, make(m))).collect();
+    Motion::keyed(keys).unwrap_or_else(|_| Motion::still(make(&motion.at(0.0))))
+}
+
 /// The camera `element`, carried by a node at `world`. glTF cameras look along -z, ours along +z, with the same x and
 /// y: the placement mirrors z.
-pub(super) fn camera(element: &Element<'_>, name: &str, world: &DAffine3) -> Checked<CameraDesc> {
+pub(super) fn camera(element: &Element<'_>, name: &str, world: &Motion) -> Checked<CameraDesc> {
     let kind = element.required("type")?;
     let node = match kind.text()? {
         "perspective" => perspective(&element.required("perspective")?)?,
@@ -26,8 +32,9 @@ pub(super) fn camera(element: &Element<'_>, name: &str, world: &DAffine3) -> Che
             return Err(kind.fault(format!("expected perspective or orthographic, found \"{other}\"")));
         }
     };
-    let placement = rigid(world) * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
-    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera: Motion::still(placement) })
+    let turned = DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
+    let world_from_camera = carried(world, |m| rigid(m) * turned);
+    Ok(CameraDesc { name: name.to_owned(), node, world_from_camera })
 }
 
 fn perspective(element: &Element<'_>) -> Checked<Node> {
@@ -68,7 +75,7 @@ fn orthographic(element: &Element<'_>) -> Checked<Node> {
 /// The light `element` of KHR_lights_punctual, carried by a node at `world`. Its photometric numbers (candela, lux)
 /// are taken as radiometric ones (W/sr, W/m^2) without a factor, as most renderers do; `range` is a hint for
 /// rasterisers and ignored.
-pub(super) fn light(element: &Element<'_>, name: &str, world: &DAffine3) -> Checked<LightDesc> {
+pub(super) fn light(element: &Element<'_>, name: &str, world: &Motion) -> Checked<LightDesc> {
     let color: [f64; 3] = element.numbers_or("color", [1.0; 3])?;
     let intensity = element.number_or("intensity", 1.0)?;
     let power = color.map(|c| (c * intensity) as f32);
@@ -90,7 +97,7 @@ pub(super) fn light(element: &Element<'_>, name: &str, world: &DAffine3) -> Chec
             return Err(kind.fault(format!("expected point, directional or spot, found \"{other}\"")));
         }
     };
-    Ok(LightDesc { name: name.to_owned(), node, world_from_light: Motion::still(rigid(world)) })
+    Ok(LightDesc { name: name.to_owned(), node, world_from_light: carried(world, rigid) })
 }
 
 /// Outer and inner angle of a spot light in degrees.

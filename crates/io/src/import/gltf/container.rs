@@ -1,5 +1,7 @@
 //! The GLB container: a JSON chunk and at most one binary chunk (glTF 2.0 specification, section 4).
 
+use std::ops::Range;
+
 use durer_scene::counted;
 
 use crate::import::content::beginning;
@@ -13,7 +15,7 @@ pub(super) struct Chunks<'a> {
     /// The document.
     pub(super) json: &'a [u8],
     /// The buffer without a URI.
-    pub(super) bin: Option<&'a [u8]>,
+    pub(super) bin: Option<Range<usize>>,
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
@@ -52,7 +54,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
             other if at == 12 => {
                 return Err(export_again(&format!("the first chunk must be JSON, found {}", shown(other))));
             }
-            BIN if second => bin = Some(chunk.data),
+            BIN if second => bin = Some(at + 8..at + 8 + chunk.data.len()),
             JSON => return Err(export_again(&format!("a second JSON chunk at byte {at}"))),
             BIN if bin.is_some() => return Err(export_again(&format!("a second BIN chunk at byte {at}"))),
             BIN => {

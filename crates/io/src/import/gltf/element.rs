@@ -95,6 +95,14 @@ impl<'a> Element<'a> {
         let array = list.value.as_array().ok_or_else(|| list.expected("an array"))?;
         Ok(array.get(index).map(|value| list.child(&index.to_string(), value)))
     }
+    /// What the name leads to: a member of an object, or an element of an array by its index.
+    pub(super) fn step(&self, name: &str) -> Option<Self> {
+        let found = match self.value {
+            Value::Array(array) => array.get(name.parse::<usize>().ok()?),
+            value => value.get(name),
+        };
+        found.map(|value| self.child(name, value))
+    }
     /// The names of an object's members.
     pub(super) fn keys(&self) -> impl Iterator<Item = &'a str> + use<'a> {
         self.value.as_object().into_iter().flat_map(|o| o.keys().map(String::as_str))

@@ -9,6 +9,9 @@ use super::{
 /// Read completely, or as far as a picture shows.
 const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -20,25 +23,24 @@ const READ: &[&str] = &[
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 
-/// Known to change nothing of a scene at rest: data about it, animations, other materials to choose from.
-const HARMLESS: &[&str] = &["KHR_animation_pointer", "KHR_materials_variants", "KHR_xmp", "KHR_xmp_json_ld"];
+/// Known to change no picture: data about the scene.
+const HARMLESS: &[&str] = &["KHR_xmp", "KHR_xmp_json_ld"];
 
 /// Not read: materials look simpler. A scene that only uses one is drawn without it.
 const LOOKS_ONLY: &[&str] = &["KHR_materials_dispersion", "KHR_materials_pbrSpecularGlossiness"];
 
 /// Not read, and data is missing without them; with a way out.
 const REFUSED: &[(&str, &str)] = &[
-    ("EXT_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
     ("EXT_texture_avif", "convert the textures: `gltf-transform png in.glb out.glb`"),
-    ("EXT_texture_webp", "convert the textures: `gltf-transform png in.glb out.glb`"),
     ("KHR_draco_mesh_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
-    ("KHR_meshopt_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
     ("KHR_texture_basisu", "convert the textures: `gltf-transform ktxdecompress in.glb out.glb`"),
 ];
 

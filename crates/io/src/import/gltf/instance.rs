@@ -12,7 +12,7 @@ use super::{
 /// The placements that the extension object describes, relative to the node.
 pub(super) fn placements<'a>(
     document: &Document<'a>,
-    buffers: &Buffers<'a>,
+    buffers: &Buffers,
     extension: &Element<'a>,
 ) -> Checked<Vec<DAffine3>> {
     let attributes = extension.required("attributes")?;

@@ -19,7 +19,7 @@ pub(super) struct Look {
 }
 
 /// The materials of a document.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Looks {
     /// Those of the file, by index, then variants of them. One that is at fault stays in its place with no parameters.
     pub(super) list: Vec<NamedNode>,

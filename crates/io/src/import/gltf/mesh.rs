@@ -16,25 +16,33 @@ use super::{
 /// What a node adds to its mesh.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pose {
-    /// Weights of the morph targets; those that are missing are 0.
-    pub(super) weights: Vec<f32>,
+    /// Weights of the morph targets, by moment, of which there is one if they do not change; those that are missing are 0.
+    pub(super) weights: Vec<Vec<f32>>,
     /// Index of the skin.
     pub(super) skin: Option<usize>,
 }
 
 /// One mesh to be made.
 pub(super) struct Wish<'a> {
+    /// What tells it from others.
+    key: Key,
     /// The primitive.
     pub(super) primitive: Element<'a>,
     /// How indices become triangles.
     pub(super) mode: Mode,
     /// The texture coordinates to read.
     pub(super) sets: [usize; 2],
-    /// Morph targets and their weights, none of which is 0.
-    pub(super) targets: Vec<(Element<'a>, f32)>,
+    /// Morph targets and their weights by moment, not all of which are 0.
+    pub(super) targets: Vec<(Element<'a>, Vec<f32>)>,
     /// Index of the skin that bends it.
     pub(super) skin: Option<usize>,
 }
+
+/// Accessors, weights and skin as numbers.
+type Key = Vec<usize>;
+
+/// Meshes that were made before and are the same whenever they are looked at.
+pub(super) type Known = HashMap<Key, Option<Arc<Mesh>>>;
 
 /// A mesh asked for.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +56,7 @@ pub(super) struct Asked {
 /// Meshes asked for so far.
 #[derive(Default)]
 pub(super) struct Meshes<'a> {
-    numbers: HashMap<Vec<usize>, usize>,
+    numbers: HashMap<Key, usize>,
     wishes: Vec<Wish<'a>>,
 }
 
@@ -96,43 +104,55 @@ impl<'a> Meshes<'a> {
             (None, _) => {}
         }
         let mut targets = Vec::new();
-        for (target, &weight) in primitive.list("targets")?.into_iter().zip(&pose.weights) {
-            if weight != 0.0 {
+        for (index, target) in primitive.list("targets")?.into_iter().enumerate() {
+            let of = |weights: &Vec<f32>| weights.get(index).copied().unwrap_or(0.0);
+            let weights: Vec<f32> = pose.weights.iter().map(of).collect();
+            if weights.iter().any(|w| *w != 0.0) {
                 accessors(&target, sets, &mut key)?;
-                key.push(weight.to_bits() as usize);
-                targets.push((target, weight));
+                key.extend(weights.iter().map(|w| w.to_bits() as usize));
+                targets.push((target, weights));
             }
         }
         let next = self.wishes.len();
-        let number = *self.numbers.entry(key).or_insert(next);
+        let number = *self.numbers.entry(key.clone()).or_insert(next);
         if number == next {
-            self.wishes.push(Wish { primitive: primitive.clone(), mode, sets, targets, skin });
+            self.wishes.push(Wish { key, primitive: primitive.clone(), mode, sets, targets, skin });
         }
         Ok(Some(Asked { number, skin }))
     }
 
-    /// Makes all meshes, by number; `None` where there is nothing to draw, or something was wrong with it.
+    /// Makes all meshes, by number; `None` where there is nothing to draw, or something was wrong with it. Those that no skin
+    /// bends are taken from `known`, which is left with those that were of use.
     pub(super) fn build(
         self,
-        document: &Document<'a>,
-        buffers: &Buffers<'a>,
-        skins: &HashMap<usize, Skin>,
+        (document, buffers): (&Document<'a>, &Buffers),
+        (skins, times): (&HashMap<usize, Skin>, &[f32]),
+        known: &mut Known,
     ) -> Vec<Option<Arc<Mesh>>> {
+        let before = std::mem::take(known);
         let jobs: Vec<_> = self.wishes.into_iter().map(|wish| (document.apart(), wish)).collect();
         let made: Vec<_> = jobs
             .into_par_iter()
             .map(|(own, wish)| {
-                if own.is_exhausted() {
-                    return (None, own);
+                if let Some(mesh) = before.get(&wish.key) {
+                    return (mesh.clone(), own, wish);
                 }
-                let mesh = own.keep(primitive::build(&own, buffers, &wish, skins)).flatten();
-                (mesh.map(Arc::new), own)
+                if own.is_exhausted() {
+                    return (None, own, wish);
+                }
+                let mesh = own.keep(primitive::build(&own, buffers, &wish, (skins, times))).flatten();
+                (mesh.map(Arc::new), own, wish)
             })
             .collect();
-        let keep = |(mesh, own)| {
+        let mut all = Vec::with_capacity(made.len());
+        for (mesh, own, wish) in made {
             document.absorb(own);
-            mesh
-        };
-        made.into_iter().map(keep).collect()
+            // Weights stand in the key, joints do not; nor do the moments of a shape that changes.
+            if wish.skin.is_none() && mesh.as_ref().is_none_or(|mesh| mesh.is_still()) {
+                known.insert(wish.key, mesh.clone());
+            }
+            all.push(mesh);
+        }
+        all
     }
 }

@@ -2,10 +2,12 @@
 //!
 //! The file is read as plain JSON with checks of our own: every complaint carries the JSON pointer of its cause, every
 //! index and range is checked before use, and what a file may unpack to is bounded by the size of its buffers.
-//! Skins and morph targets are drawn as the nodes and weights of the file leave them; animations are not played yet.
+//! An animation, if one is played, leaves nodes and weights as they are at the moments that a picture needs (`stance.rs`);
+//! what else it changes is written into the document before that is read (`reel.rs`).
 //! What takes time is done in parallel: buffers are read, then all primitives are decoded at the same time.
 
 mod accessor;
+mod animation;
 mod buffer;
 mod camera;
 mod container;
@@ -17,89 +19,85 @@ mod json;
 mod layers;
 mod material;
 mod mesh;
+mod meshopt;
 mod morph;
 mod node;
 mod place;
 mod primitive;
+mod reel;
 mod skin;
+mod stance;
 mod structure;
 mod texture;
+mod variant;
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
-use durer_scene::{Limits, Location, SceneDesc, counted};
+use durer_scene::{Location, counted};
 
+pub use self::reel::Reel;
 use self::{
-    buffer::Buffers,
+    animation::Animation,
+    buffer::{Buffers, Chunk},
     document::Document,
     element::{Checked, Element},
-    material::Looks,
     node::Hierarchy,
-    place::Walk,
-    texture::Textures,
 };
-use super::Imported;
-use crate::{FileAssets, assets::read_file};
+use super::{Imported, Reading};
+use crate::assets::read_file;
 
 /// Reads the file at `path`.
-pub(super) fn read(path: &Path, imported: &mut Imported) {
+pub(super) fn read(path: &Path, reading: &Reading, imported: &mut Imported) {
     let file = path.display().to_string();
-    let limits = imported.assets.limits();
-    if let Err(message) = parse(path, &file, limits, imported) {
+    if let Err(message) = parse(path, &file, reading, imported) {
         imported.diagnostics.error(Location::Path { file, pointer: String::new() }, message);
     }
 }
 
-fn parse(path: &Path, file: &str, limits: Limits, imported: &mut Imported) -> Result<(), String> {
-    let bytes = read_file(path, file, limits).map_err(|e| e.to_string())?;
+fn parse(path: &Path, file: &str, reading: &Reading, imported: &mut Imported) -> Result<(), String> {
+    let bytes = Arc::new(read_file(path, file, reading.limits).map_err(|e| e.to_string())?);
     let chunks = container::split(&bytes)?;
-    let value = json::parse(chunks.json)?;
+    let mut value = json::parse(chunks.json)?;
+    let bin = chunks.bin.map(|range| Chunk { bytes: Arc::clone(&bytes), range });
     let document = Document::new(Element::root(&value), file);
-    if let Err(fault) = import(&document, chunks.bin, imported) {
-        document.error(fault);
-    }
+    let loaded = document.keep(load(&document, bin.as_ref(), imported)).flatten();
+    let animation = match &loaded {
+        Some(buffers) => document.keep(Animation::read(&document, buffers, &reading.play)).flatten(),
+        None => None,
+    };
+    let stories =
+        document.keep(animation::told(&document, &reading.play, reading.moment)).unwrap_or_default();
+    let variants = document.keep(variant::names(&document)).unwrap_or_default();
+    let worn = match &reading.variant {
+        Some(wanted) if !variants.is_empty() => document.keep(variant::chosen(&document, &variants, wanted)),
+        _ => None,
+    };
+    let sound = !document.has_errors();
+    (imported.desc.animations, imported.desc.variants) = (stories, variants);
     imported.diagnostics.append(document.into_complaints());
+    if let Some(buffers) = loaded.filter(|_| sound) {
+        if let Some(worn) = worn {
+            variant::wear(&mut value, worn);
+        }
+        let mut reel = Reel::new(file, value, buffers, animation);
+        reel.open(reading.moment, imported);
+        imported.reel = reel.animation.is_some().then_some(reel);
+    }
     Ok(())
 }
 
-fn import<'a>(document: &Document<'a>, bin: Option<&'a [u8]>, imported: &mut Imported) -> Checked<()> {
+/// Checks the document and loads its buffers; `None` after a complaint.
+fn load(document: &Document<'_>, bin: Option<&Chunk>, imported: &mut Imported) -> Checked<Option<Buffers>> {
     check_version(document)?;
     extension::check(document)?;
     if document.has_errors() {
-        return Ok(());
+        return Ok(None);
     }
     structure::check(document)?;
-    let nodes = Hierarchy::read(document)?;
     let buffers = Buffers::load(document, bin, &imported.assets)?;
     buffers.check(document)?;
     document.set_budget(buffers.total());
-    let desc = &mut imported.desc;
-    let looks = looks(document, &buffers, &mut imported.assets, desc)?;
-    let roots = roots(document, &nodes)?;
-    Walk::new(document, &buffers, &nodes, &looks).run(&roots, desc)?;
-    desc.materials = looks.list;
-    buffers.warn_of_unused(document)?;
-    let animations = document.root.list("animations")?;
-    if let Some(first) = animations.first() {
-        let message = match animations.len() {
-            1 => "1 animation is not played: the scene is drawn at rest".to_owned(),
-            n => format!("{n} animations are not played: the scene is drawn at rest"),
-        };
-        document.warn(first, message);
-    }
-    Ok(())
-}
-
-fn looks<'a>(
-    document: &Document<'a>,
-    buffers: &Buffers<'a>,
-    assets: &mut FileAssets,
-    desc: &mut SceneDesc,
-) -> Checked<Looks> {
-    let mut textures = Textures::new(document, buffers, assets);
-    let looks = Looks::read(document, &mut textures);
-    desc.textures = textures.list;
-    looks
+    Ok(Some(buffers))
 }
 
 fn check_version(document: &Document<'_>) -> Checked<()> {

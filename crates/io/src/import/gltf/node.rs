@@ -1,4 +1,4 @@
-//! The node hierarchy: who is whose child, and where each node is in the world, composed in f64.
+//! The node hierarchy: who is whose child, and where nodes are in the world, composed in f64.
 //!
 //! Nodes must form disjoint trees (glTF 2.0, section 3.5.2). Nothing here recurses: a chain may be as long as the file.
 use durer_core::glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -14,7 +14,34 @@ pub(super) struct Hierarchy<'a> {
     children: Vec<Vec<usize>>,
     /// Indices of the nodes that are no other's child.
     pub(super) roots: Vec<usize>,
-    world: Vec<DAffine3>,
+    /// The nodes' own transforms, as the document has them.
+    pub(super) locals: Vec<Local>,
+}
+
+/// A node's own transform.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Local {
+    /// A matrix.
+    Matrix(DAffine3),
+    /// What animations can change.
+    Parts {
+        /// In metres.
+        translation: [f64; 3],
+        /// x, y, z, w.
+        rotation: [f64; 4],
+        /// Along the axes.
+        scale: [f64; 3],
+    },
+}
+
+impl Local {
+    /// `None` if the rotation is none.
+    fn affine(&self) -> Option<DAffine3> {
+        match *self {
+            Self::Matrix(m) => Some(m),
+            Self::Parts { translation, rotation, scale } => trs(translation, rotation, scale),
+        }
+    }
 }
 
 impl<'a> Hierarchy<'a> {
@@ -41,30 +68,45 @@ impl<'a> Hierarchy<'a> {
             children.push(own);
         }
         let roots = parents.iter().enumerate().filter(|(_, p)| p.is_none()).map(|(i, _)| i).collect();
-        let world = vec![DAffine3::IDENTITY; nodes.len()];
-        let mut hierarchy = Self { nodes, children, roots, world };
-        hierarchy.place(document)?;
+        let upright = Local::Matrix(DAffine3::IDENTITY);
+        let own = |node: &Element<'a>| document.keep(local(document, node)).unwrap_or(upright.clone());
+        let locals = nodes.iter().map(own).collect();
+        let hierarchy = Self { nodes, children, roots, locals };
+        hierarchy.check()?;
         Ok(hierarchy)
     }
 
-    /// Composes all transforms; complains about nodes that no root leads to.
-    fn place(&mut self, document: &Document<'a>) -> Checked<()> {
-        let mut reached = vec![false; self.nodes.len()];
+    /// Where all nodes are with these transforms of their own.
+    pub(super) fn worlds(&self, document: &Document<'_>, locals: &[Local]) -> Checked<Vec<DAffine3>> {
+        let mut worlds = vec![DAffine3::IDENTITY; self.nodes.len()];
         let mut stack: Vec<(usize, DAffine3)> = self.roots.iter().map(|&i| (i, DAffine3::IDENTITY)).collect();
         while let Some((index, above)) = stack.pop() {
-            let Some(node) = self.nodes.get(index) else { continue };
-            let own = document.keep(local(document, node)).unwrap_or(DAffine3::IDENTITY);
+            let Some((node, local)) = self.nodes.get(index).zip(locals.get(index)) else { continue };
+            let own = local.affine().unwrap_or_else(|| {
+                document.error(node.fault_at("rotation", "a quaternion of length 0"));
+                DAffine3::IDENTITY
+            });
             let world = above * own;
             if !world.is_finite() {
                 return Err(node.fault("the transforms above this node multiply to infinity"));
             }
-            if let Some(place) = self.world.get_mut(index) {
+            if let Some(place) = worlds.get_mut(index) {
                 *place = world;
             }
+            stack.extend(self.children_of(index).iter().map(|&child| (child, world)));
+        }
+        Ok(worlds)
+    }
+
+    /// Complains about nodes that no root leads to.
+    fn check(&self) -> Checked<()> {
+        let mut reached = vec![false; self.nodes.len()];
+        let mut stack = self.roots.clone();
+        while let Some(index) = stack.pop() {
             if let Some(reached) = reached.get_mut(index) {
                 *reached = true;
             }
-            stack.extend(self.children_of(index).iter().map(|&child| (child, world)));
+            stack.extend(self.children_of(index));
         }
         match reached.iter().position(|reached| !reached).and_then(|i| self.nodes.get(i)) {
             None => Ok(()),
@@ -99,6 +141,19 @@ impl<'a> Hierarchy<'a> {
         format!("{}{more} -> /nodes/{within}", shown.join(" -> "))
     }
 
+    /// Which nodes are among `tops`, or below one of them.
+    pub(super) fn below(&self, tops: impl Iterator<Item = usize>) -> Vec<bool> {
+        let mut is_below = vec![false; self.nodes.len()];
+        let mut stack: Vec<usize> = tops.collect();
+        while let Some(index) = stack.pop() {
+            if let Some(known @ false) = is_below.get_mut(index) {
+                *known = true;
+                stack.extend(self.children_of(index));
+            }
+        }
+        is_below
+    }
+
     /// The node that `reference` names by index.
     pub(super) fn index(&self, reference: &Element<'a>) -> Checked<usize> {
         let index = reference.index()?;
@@ -108,10 +163,6 @@ impl<'a> Hierarchy<'a> {
     /// A node, if there are as many.
     pub(super) fn node(&self, index: usize) -> Option<&Element<'a>> {
         self.nodes.get(index)
-    }
-    /// Where a node is in the world.
-    pub(super) fn world(&self, index: usize) -> DAffine3 {
-        self.world.get(index).copied().unwrap_or(DAffine3::IDENTITY)
     }
     /// Indices of a node's children.
     pub(super) fn children_of(&self, index: usize) -> &[usize] {
@@ -145,16 +196,17 @@ pub(super) fn is_affine(m: &[f64; 16]) -> bool {
 }
 
 /// A node's own transform.
-fn local(document: &Document<'_>, node: &Element<'_>) -> Checked<DAffine3> {
+fn local(document: &Document<'_>, node: &Element<'_>) -> Checked<Local> {
     if let Some(element) = node.get("matrix")? {
         let m: [f64; 16] = element.numbers()?;
         if !is_affine(&m) {
             document.warn(&element, "the last row of this matrix is not 0 0 0 1; it is ignored");
         }
-        return Ok(matrix(m));
+        return Ok(Local::Matrix(matrix(m)));
     }
-    let translation = node.numbers_or("translation", [0.0; 3])?;
-    let rotation = node.numbers_or("rotation", [0.0, 0.0, 0.0, 1.0])?;
-    let scale = node.numbers_or("scale", [1.0; 3])?;
-    trs(translation, rotation, scale).ok_or_else(|| node.fault_at("rotation", "a quaternion of length 0"))
+    Ok(Local::Parts {
+        translation: node.numbers_or("translation", [0.0; 3])?,
+        rotation: node.numbers_or("rotation", [0.0, 0.0, 0.0, 1.0])?,
+        scale: node.numbers_or("scale", [1.0; 3])?,
+    })
 }

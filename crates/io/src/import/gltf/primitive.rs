@@ -5,7 +5,7 @@ use durer_core::{
     glam::DVec3,
     math::{Normal3, Point2, Point3},
 };
-use durer_scene::{Mesh, counted};
+use durer_scene::{Mesh, VertexKey, counted};
 
 use super::{
     accessor::Accessor,
@@ -13,7 +13,7 @@ use super::{
     document::Document,
     element::{Checked, Element},
     mesh::Wish,
-    morph,
+    morph::Targets,
     skin::{Influences, Skin},
 };
 
@@ -47,9 +47,9 @@ pub(super) fn mode<'a>(document: &Document<'a>, primitive: &Element<'a>) -> Chec
 /// Makes the mesh; `None`, after a warning, if there is nothing to draw.
 pub(super) fn build<'a>(
     document: &Document<'a>,
-    buffers: &Buffers<'a>,
+    buffers: &Buffers,
     wish: &Wish<'a>,
-    skins: &HashMap<usize, Skin>,
+    (skins, times): (&HashMap<usize, Skin>, &[f32]),
 ) -> Checked<Option<Mesh>> {
     let primitive = &wish.primitive;
     let attributes = primitive.required("attributes")?;
@@ -70,11 +70,14 @@ pub(super) fn build<'a>(
     }
     let used = used_vertices(&corners, positions.count, &mut indices);
     let columns = Columns { document, buffers, vertices: positions.count, which: used.as_deref() };
-    let mut mesh = columns.mesh(&attributes, wish.sets, indices)?;
-    morph::apply(&columns, &mut mesh, wish)?;
-    if let Some(skin) = wish.skin.and_then(|skin| skins.get(&skin)) {
-        skin.bend(&mut mesh, &columns.influences(&attributes, skin)?);
-    }
+    let mesh = columns.mesh(&attributes, wish.sets, indices)?;
+    let skin = match wish.skin.and_then(|skin| skins.get(&skin)) {
+        Some(skin) => Some((skin, columns.influences(&attributes, skin)?)),
+        None => None,
+    };
+    let shaping = Shaping { targets: Targets::read(&columns, wish)?, skin };
+    document.spend(primitive, mesh.positions.len().saturating_mul(shaping.moments() - 1), 24)?;
+    let mesh = shaping.shaped(mesh, times);
     mesh.validate().map_err(|e| primitive.fault(e.to_string()))?;
     if has_no_area(&mesh) {
         document.warn(primitive, "no triangle of this primitive has an area: nothing of it will be seen");
@@ -82,20 +85,58 @@ pub(super) fn build<'a>(
     Ok(Some(mesh))
 }
 
+/// What gives a mesh its shape, moment by moment.
+struct Shaping<'s> {
+    targets: Targets<'s>,
+    skin: Option<(&'s Skin, Vec<Vec<Influences>>)>,
+}
+
+impl Shaping<'_> {
+    /// At how many moments the shape is known; 1 if it does not change.
+    fn moments(&self) -> usize {
+        self.targets.moments().max(self.skin.as_ref().map_or(1, |(skin, _)| skin.moments()))
+    }
+    fn shape(&self, mesh: &mut Mesh, moment: usize) {
+        self.targets.apply(mesh, moment);
+        if let Some((skin, influences)) = &self.skin {
+            skin.bend(mesh, influences, moment);
+        }
+    }
+    /// The mesh in its shape at all moments. Tangents, colours and texture coordinates stay those of the first.
+    fn shaped(&self, mesh: Mesh, times: &[f32]) -> Mesh {
+        let mut first = mesh.clone();
+        self.shape(&mut first, 0);
+        for (moment, &time) in times.iter().enumerate().take(self.moments()).skip(1) {
+            let (positions, normals) = (mesh.positions.clone(), mesh.normals.clone());
+            let mut outline = Mesh { positions, normals, ..Mesh::default() };
+            self.shape(&mut outline, moment);
+            let Mesh { positions, normals, .. } = outline;
+            first.later.push(VertexKey { time, positions, normals });
+        }
+        if !first.is_still() {
+            first.time = times.first().copied().unwrap_or(0.0);
+        }
+        first
+    }
+}
+
 /// True if nothing of a mesh can be hit.
 pub(super) fn has_no_area(mesh: &Mesh) -> bool {
-    mesh.indices.iter().all(|triangle| {
-        let [a, b, c] =
-            triangle.map(|i| mesh.positions.get(i as usize).map_or(DVec3::ZERO, |p| Point3::to_f64(*p)));
-        (b - a).cross(c - a) == DVec3::ZERO
-    })
+    let is_flat = |positions: &[Point3]| {
+        mesh.indices.iter().all(|triangle| {
+            let [a, b, c] =
+                triangle.map(|i| positions.get(i as usize).map_or(DVec3::ZERO, |p| Point3::to_f64(*p)));
+            (b - a).cross(c - a) == DVec3::ZERO
+        })
+    };
+    (0..mesh.keys()).all(|key| is_flat(mesh.key(key).1))
 }
 
 /// The attributes of one primitive, all of the same length.
 pub(super) struct Columns<'r, 'a> {
     /// The document.
     pub(super) document: &'r Document<'a>,
-    buffers: &'r Buffers<'a>,
+    buffers: &'r Buffers,
     vertices: usize,
     which: Option<&'r [u32]>,
 }
@@ -219,7 +260,7 @@ fn zip([a, b, c, d]: [u32; 4], [p, q, r, s]: [f32; 4]) -> Influences {
 /// The vertices in the order in which the primitive visits them.
 fn corners<'a>(
     document: &Document<'a>,
-    buffers: &Buffers<'a>,
+    buffers: &Buffers,
     primitive: &Element<'a>,
     positions: &Accessor<'_, 'a>,
 ) -> Checked<Vec<u32>> {

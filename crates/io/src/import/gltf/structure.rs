@@ -79,7 +79,10 @@ const SPARSE: &[(&str, Is)] = &[
     ("values", Part(&[("bufferView", Ref("bufferViews")), ("byteOffset", Whole)])),
 ];
 const ANIMATION: &[(&str, Is)] = &[
-    ("channels", Parts(&[("sampler", Whole), ("target", Part(&[("node", Ref("nodes")), ("path", Text)]))])),
+    (
+        "channels",
+        Parts(&[("sampler", Whole), ("target", Part(&[("node", Ref("nodes")), ("path", Text), EXTENSIONS]))]),
+    ),
     (
         "samplers",
         Parts(&[("input", Ref("accessors")), ("output", Ref("accessors")), ("interpolation", Text)]),

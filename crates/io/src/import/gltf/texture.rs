@@ -25,9 +25,10 @@ pub(super) enum Role {
 /// Textures made so far; equal ones are one.
 pub(super) struct Textures<'b, 'a> {
     document: &'b Document<'a>,
-    buffers: &'b Buffers<'a>,
+    buffers: &'b Buffers,
     assets: &'b mut FileAssets,
-    filenames: HashMap<usize, String>,
+    /// Images by index.
+    filenames: &'b mut HashMap<usize, String>,
     names: HashMap<String, String>,
     /// The sets of texture coordinates that a mesh has for the material at work.
     pub(super) sets: [usize; 2],
@@ -38,13 +39,13 @@ pub(super) struct Textures<'b, 'a> {
 }
 
 impl<'b, 'a> Textures<'b, 'a> {
-    /// None yet.
+    /// None yet, but for images, which may be known by name.
     pub(super) fn new(
-        document: &'b Document<'a>,
-        buffers: &'b Buffers<'a>,
+        (document, buffers): (&'b Document<'a>, &'b Buffers),
         assets: &'b mut FileAssets,
+        filenames: &'b mut HashMap<usize, String>,
     ) -> Self {
-        let (filenames, names) = (HashMap::new(), HashMap::new());
+        let names = HashMap::new();
         Self {
             document,
             buffers,
@@ -103,7 +104,11 @@ impl<'b, 'a> Textures<'b, 'a> {
     /// The file name of a texture's image and where that is described; embedded ones are registered under a name of
     /// their own.
     fn image(&mut self, texture: &Element<'a>) -> Checked<Option<(String, Location)>> {
-        let Some(source) = texture.get("source")? else {
+        let webp = match texture.extension("EXT_texture_webp")? {
+            Some(extension) => extension.get("source")?,
+            None => None,
+        };
+        let Some(source) = webp.or(texture.get("source")?) else {
             let other: Vec<&str> = texture.get("extensions")?.iter().flat_map(Element::keys).collect();
             let why =
                 if other.is_empty() { "has no image".into() } else { format!("needs {}", other.join(", ")) };

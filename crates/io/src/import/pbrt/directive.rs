@@ -11,7 +11,7 @@ pub(super) enum Place {
     Any,
 }
 
-/// A directive of pbrt-v4, or our addition `TransformKeys`.
+/// A directive of pbrt-v4, or one of our additions, `InverseTransform` and `TransformKeys`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Directive {
     Accelerator,
@@ -30,6 +30,7 @@ pub(super) enum Directive {
     Import,
     Include,
     Integrator,
+    InverseTransform,
     LightSource,
     LookAt,
     MakeNamedMaterial,
@@ -92,6 +93,7 @@ const TABLE: &[(&str, Directive, Place)] = &[
     ("CoordinateSystem", D::CoordinateSystem, Place::Any),
     ("CoordSysTransform", D::CoordSysTransform, Place::Any),
     ("ActiveTransform", D::ActiveTransform, Place::Any),
+    ("InverseTransform", D::InverseTransform, Place::Any),
     ("TransformKeys", D::TransformKeys, Place::Any),
     ("TransformTimes", D::TransformTimes, Place::Options),
     ("ColorSpace", D::ColorSpace, Place::Any),

@@ -7,7 +7,7 @@ const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> 
     ParamSpec::new(name, ParamType::Int, ParamDefault::Int(default), doc).range(1.0, most)
 }
 
-/// Parameters of every film; `gbuffer` and `spectral` add a few.
+/// Parameters of every film; `gbuffer` and `spectral` add a few. In a spectral film rays carry wavelengths.
 pub(super) const FILM: Schema = Schema {
     name: "rgb",
     aliases: &["gbuffer", "spectral"],
@@ -34,7 +34,7 @@ pub(super) const FILM: Schema = Schema {
             ParamDefault::Text("camera"),
             "gbuffer: no effect",
         ),
-        int("nbuckets", 16, 1e6, "spectral: no effect"),
+        int("nbuckets", 16, 1e6, "spectral: no effect, the picture has three channels"),
         ParamSpec::float("lambdamin", 360.0, "spectral: no effect").unit("nm"),
         ParamSpec::float("lambdamax", 830.0, "spectral: no effect").unit("nm"),
     ],
@@ -100,6 +100,7 @@ pub(super) fn film(
         );
     }
     let mut args = Args::check(node, FILM, &[], diagnostics);
+    film.spectral = node.kind == "spectral";
     film.width = u32::try_from(args.int("xresolution")).ok();
     film.height = u32::try_from(args.int("yresolution")).ok();
     for (name, into) in [("diagonal", &mut film.diagonal_mm), ("iso", &mut film.iso)] {
@@ -119,8 +120,10 @@ pub(super) fn film(
         ("scale", args.float("scale") != 1.0),
         ("maxcomponentvalue", args.optional_float("maxcomponentvalue").is_some()),
     ];
-    let mut vain: Vec<_> =
-        FILM.aliases.iter().filter(|a| **a == node.kind).map(|a| (*a, node.at.clone())).collect();
+    let mut vain = Vec::new();
+    if node.kind == "gbuffer" {
+        vain.push(("gbuffer", node.at.clone()));
+    }
     if args.is_sound() {
         let at = |name: &str| node.params.get(name).map_or(Location::None, |p| p.at.clone());
         vain.extend(unusual.iter().filter(|u| u.1).map(|(name, _)| (*name, at(name))));

@@ -41,7 +41,7 @@ const USUAL_DEPTH: u32 = 5;
 
 /// Reads the file at `path`.
 pub(super) fn read(path: &Path, imported: &mut Imported) {
-    let Imported { desc, assets, sources, diagnostics } = imported;
+    let Imported { desc, assets, sources, diagnostics, .. } = imported;
     desc.usual_depth = Some(USUAL_DEPTH);
     if let Some((files, text)) = Files::main(path, assets.limits(), sources, diagnostics) {
         Parser::new(text, files, desc, sources, diagnostics).run();
@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
 /// Reads a scene that is no file, such as a built-in one; `name` is what messages call it. It cannot include files.
 pub fn read_text(name: &str, text: &str, imported: &mut Imported) {
     let text: Arc<str> = Arc::from(text);
-    let Imported { desc, assets, sources, diagnostics } = imported;
+    let Imported { desc, assets, sources, diagnostics, .. } = imported;
     desc.usual_depth = Some(USUAL_DEPTH);
     if !files::spans_fit(&text) {
         diagnostics.error(Location::None, format!("{name}: larger than 4 GiB"));

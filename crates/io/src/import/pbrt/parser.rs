@@ -182,6 +182,7 @@ impl<'a> Parser<'a> {
             | D::CoordinateSystem
             | D::CoordSysTransform
             | D::ActiveTransform
+            | D::InverseTransform
             | D::TransformKeys
             | D::TransformTimes => self.transform(directive, head),
             D::Camera => self.camera(head),

@@ -46,12 +46,14 @@ pub(super) struct Placement {
     /// What stands before each use of `TransformKeys`, and what that gave.
     factors: Factors,
     last: Pair,
+    /// The way back from the two matrices of `last`, where that was written instead of them.
+    back: [Option<DAffine3>; 2],
 }
 
 impl Placement {
     /// Where the world is.
     pub(super) fn identity() -> Self {
-        Self { factors: None, last: Pair::IDENTITY }
+        Self { factors: None, last: Pair::IDENTITY, back: [None; 2] }
     }
 
     fn factors(&self) -> &[(Pair, Arc<Motion>)] {
@@ -60,30 +62,34 @@ impl Placement {
 
     /// The way back. Every matrix was checked when it came about.
     pub(super) fn inverse(&self) -> Self {
+        let [start, end] = self.back;
         let mut before = self.last.inverse();
+        before = Pair { start: start.unwrap_or(before.start), end: end.unwrap_or(before.end) };
         let mut factors = Vec::with_capacity(self.factors().len());
         for (pair, motion) in self.factors().iter().rev() {
             let keys = motion.keys().iter().map(|(t, m)| (*t, m.inverse())).collect();
             let back = Motion::keyed(keys).map_or_else(|_| Arc::clone(motion), Arc::new);
             factors.push((std::mem::replace(&mut before, pair.inverse()), back));
         }
-        Self { factors: (!factors.is_empty()).then(|| factors.into()), last: before }
+        Self { factors: (!factors.is_empty()).then(|| factors.into()), last: before, back: [None; 2] }
     }
 
     /// `self * inner`: something placed within something placed.
     pub(super) fn compose(&self, inner: &Self) -> Self {
         let Some(((pair, motion), others)) = inner.factors().split_first() else {
-            return Self { factors: self.factors.clone(), last: self.last.compose(&inner.last) };
+            let last = self.last.compose(&inner.last);
+            return Self { factors: self.factors.clone(), last, back: [None; 2] };
         };
         let joint = (self.last.compose(pair), Arc::clone(motion));
         let factors = self.factors().iter().cloned().chain([joint]).chain(others.iter().cloned());
-        Self { factors: Some(factors.collect()), last: inner.last }
+        Self { factors: Some(factors.collect()), last: inner.last, back: inner.back }
     }
 
     /// `self * motion`.
     pub(super) fn keyed(&self, motion: Motion) -> Self {
         let factor = (self.last, Arc::new(motion));
-        Self { factors: Some(self.factors().iter().cloned().chain([factor]).collect()), last: Pair::IDENTITY }
+        let factors = Some(self.factors().iter().cloned().chain([factor]).collect());
+        Self { factors, last: Pair::IDENTITY, back: [None; 2] }
     }
 
     /// How often `TransformKeys` was used.
@@ -114,16 +120,44 @@ impl Placement {
         self.changed(active, |_| before * *m)
     }
 
+    /// The inverse of `m` where `active`; going back from there leads to `m` itself, without rounding.
+    ///
+    /// # Errors
+    /// If it has none.
+    pub(super) fn with_inverse(
+        &self,
+        active: Active,
+        m: &DAffine3,
+        times: (f64, f64),
+    ) -> Result<Self, &'static str> {
+        if !is_invertible(m) {
+            return Err(SINGULAR);
+        }
+        let mut new = self.with(active, &m.inverse(), times)?;
+        if new.factors.is_none() {
+            let [start, end] = &mut new.back;
+            *start = if active == Active::End { *start } else { Some(*m) };
+            *end = if active == Active::Start { *end } else { Some(*m) };
+        }
+        Ok(new)
+    }
+
     fn changed(&self, active: Active, change: impl Fn(&DAffine3) -> DAffine3) -> Result<Self, &'static str> {
-        let mut last = self.last;
+        let (mut last, [mut start, mut end]) = (self.last, self.back);
         if active != Active::End {
             last.start = change(&last.start);
+            start = None;
         }
         if active != Active::Start {
             last.end = change(&last.end);
+            end = None;
         }
         let sound = is_invertible(&last.start) && is_invertible(&last.end);
-        if sound { Ok(Self { factors: self.factors.clone(), last }) } else { Err(SINGULAR) }
+        if sound {
+            Ok(Self { factors: self.factors.clone(), last, back: [start, end] })
+        } else {
+            Err(SINGULAR)
+        }
     }
 
     /// The product of all but the last pair at `time`.

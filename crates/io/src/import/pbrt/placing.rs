@@ -22,6 +22,8 @@ enum Change {
     Concat(DAffine3),
     /// Replace.
     Set(DAffine3),
+    /// Replace by the inverse.
+    SetInverse(DAffine3),
 }
 
 impl Parser<'_> {
@@ -47,12 +49,14 @@ impl Parser<'_> {
                 look_at(eye, target, up).map(Change::Concat)
             }
             Directive::Transform => matrix(&self.input.matrix(head)?).map(Change::Set),
+            Directive::InverseTransform => matrix(&self.input.matrix(head)?).map(Change::SetInverse),
             _ => matrix(&self.input.matrix(head)?).map(Change::Concat),
         };
         let (ctm, active) = (&self.state.ctm, self.state.active);
         let applied = change.and_then(|change| match &change {
             Change::Concat(m) => ctm.times(active, m),
             Change::Set(m) => ctm.with(active, m, self.world.times),
+            Change::SetInverse(m) => ctm.with_inverse(active, m, self.world.times),
         });
         self.placed(applied, head);
         Ok(())

@@ -1,7 +1,8 @@
 //! PLY, the Stanford triangle format (Turk 1994): text and both byte orders, with vertices, faces and triangle strips.
 //!
 //! Faces turn counter-clockwise seen from outside. Colours in whole numbers are sRGB, in floats linear. Without normals
-//! the mesh is faceted, as in pbrt.
+//! the mesh is faceted, as in pbrt. `tangent_x` to `tangent_w`, `u2` and `v2` are columns of ours: tangents with handedness,
+//! a second set of texture coordinates.
 
 mod body;
 mod header;
@@ -103,9 +104,20 @@ fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
         rows.normals.clear();
         dropped("the normals");
     }
-    if rows.uvs.iter().chain(&rows.coords).any(|p| !(p.x.is_finite() && p.y.is_finite())) {
+    if rows.tangents.iter().flatten().any(|t| !t.is_finite()) {
+        rows.tangents.clear();
+        dropped("the tangents");
+    }
+    if rows
+        .uvs
+        .iter()
+        .chain(&rows.coords)
+        .chain(&rows.second_uvs)
+        .any(|p| !(p.x.is_finite() && p.y.is_finite()))
+    {
         rows.uvs.clear();
         rows.coords.clear();
+        rows.second_uvs.clear();
         dropped("the texture coordinates");
     }
     if rows.colors.iter().flatten().any(|c| !c.is_finite()) {
@@ -120,8 +132,8 @@ fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
         long.warn(|n| format!("{n} lines hold more numbers than the header says; the last are ignored")),
     );
     let indices = triangles(&rows, warnings);
-    let Rows { positions, normals, uvs, colors, .. } = rows;
-    Mesh { positions, indices, normals, uvs, colors, ..Mesh::default() }
+    let Rows { positions, normals, uvs, colors, tangents, second_uvs, .. } = rows;
+    Mesh { positions, indices, normals, uvs, second_uvs, tangents, colors, ..Mesh::default() }
 }
 
 /// Gives corners with texture coordinates of their own vertices of their own.
@@ -141,6 +153,8 @@ fn split_vertices(rows: &mut Rows) {
     rows.positions = gather(&rows.positions, &sources);
     rows.normals = gather(&rows.normals, &sources);
     rows.colors = gather(&rows.colors, &sources);
+    rows.tangents = gather(&rows.tangents, &sources);
+    rows.second_uvs = gather(&rows.second_uvs, &sources);
     rows.uvs = uvs;
 }
 

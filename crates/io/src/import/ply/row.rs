@@ -25,10 +25,16 @@ const NAMES: [(usize, &[&str]); ROW] = [
     (9, &["green", "diffuse_green", "g"]),
     (10, &["blue", "diffuse_blue", "b"]),
     (11, &["alpha", "diffuse_alpha", "a"]),
+    (12, &["tangent_x"]),
+    (13, &["tangent_y"]),
+    (14, &["tangent_z"]),
+    (15, &["tangent_w"]),
+    (16, &["u2"]),
+    (17, &["v2"]),
 ];
 
 /// Numbers of a vertex that we read.
-const ROW: usize = 12;
+const ROW: usize = 18;
 
 /// What a table is read as.
 #[derive(Debug)]
@@ -52,6 +58,8 @@ pub(super) struct Vertices {
     uvs: bool,
     /// What the colours are divided by before they are decoded; 1 for colours that are linear.
     colors: Option<f32>,
+    tangents: bool,
+    second_uvs: bool,
 }
 
 /// What the table `element` is read as.
@@ -87,7 +95,7 @@ fn vertices(element: &Element) -> Result<Vertices, Complaint> {
         None => None,
     };
     let found = NAMES.map(|(_, names)| scalar(names));
-    let [x, y, z, nx, ny, nz, u, v, r, g, b, _] = found;
+    let [x, y, z, nx, ny, nz, u, v, r, g, b, _, tx, ty, tz, _, u2, v2] = found;
     if x.and(y).and(z).is_none() {
         let message = "the vertices have no properties x, y and z";
         return Err(Complaint::error(element.at.clone(), message));
@@ -108,6 +116,8 @@ fn vertices(element: &Element) -> Result<Vertices, Complaint> {
         normals: nx.and(ny).and(nz).is_some(),
         uvs: u.and(v).is_some(),
         colors: r.filter(|_| g.and(b).is_some()).map(|(_, ty)| scale(ty)),
+        tangents: tx.and(ty).and(tz).is_some(),
+        second_uvs: u2.and(v2).is_some(),
     })
 }
 
@@ -118,6 +128,8 @@ pub(super) struct Rows {
     pub(super) normals: Vec<Normal3>,
     pub(super) uvs: Vec<Point2>,
     pub(super) colors: Vec<[f32; 4]>,
+    pub(super) tangents: Vec<[f32; 4]>,
+    pub(super) second_uvs: Vec<Point2>,
     pub(super) corners: Vec<u32>,
     /// Texture coordinates of the corners, if faces bring their own.
     pub(super) coords: Vec<Point2>,
@@ -146,6 +158,8 @@ impl Rows {
         self.normals.append(&mut later.normals);
         self.uvs.append(&mut later.uvs);
         self.colors.append(&mut later.colors);
+        self.tangents.append(&mut later.tangents);
+        self.second_uvs.append(&mut later.second_uvs);
         self.corners.append(&mut later.corners);
         self.coords.append(&mut later.coords);
     }
@@ -187,7 +201,9 @@ impl Rows {
         columns: &Vertices,
         numbers: &mut impl Numbers,
     ) -> Result<(), Complaint> {
-        let mut row = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f32::NAN];
+        let mut row = [0.0; ROW];
+        // What may be missing where its neighbours are there: alpha, and the handedness of tangents.
+        (row[11], row[15]) = (f32::NAN, 1.0);
         for (property, slot) in element.properties.iter().zip(&columns.slots) {
             match (property.shape, slot.and_then(|s| row.get_mut(s))) {
                 (Shape::Scalar(ty), Some(value)) => {
@@ -202,7 +218,7 @@ impl Rows {
                 (shape, _) => skip(shape, numbers)?,
             }
         }
-        let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = row;
+        let [x, y, z, nx, ny, nz, u, v, r, g, b, a, tx, ty, tz, tw, u2, v2] = row;
         self.positions.push(Point3::new(x, y, z));
         if columns.normals {
             self.normals.push(Normal3::from([nx, ny, nz]));
@@ -217,6 +233,12 @@ impl Rows {
                 _ => linear(c / scale),
             });
             self.colors.push([r, g, b, a]);
+        }
+        if columns.tangents {
+            self.tangents.push([tx, ty, tz, tw]);
+        }
+        if columns.second_uvs {
+            self.second_uvs.push(Point2::new(u2, v2));
         }
         Ok(())
     }

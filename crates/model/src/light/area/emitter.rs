@@ -16,7 +16,8 @@ use super::{
     form::{Form, mesh_corners, mesh_turns},
     known::{self, Place},
     looked,
-    placed::{Chosen, Placed, choose_triangle, mirrors, triangle_density},
+    placed::{Chosen, Placed, choose_triangle, mirrors, triangle_by_area, triangle_density},
+    triangle,
 };
 use crate::{shape::Geometry, texture::TextureAt};
 
@@ -112,6 +113,71 @@ impl Emitter {
         Some((Chosen { n, density: chosen.density * share, ..chosen }, index))
     }
 
+    /// A point of piece or triangle `index` chosen by area, with its density over that, 1/m².
+    pub(super) fn point_of(&self, index: usize, time: f32, u: [f64; 2]) -> Option<Chosen> {
+        let m = self.track.at(time);
+        let chosen = match &self.form {
+            Form::Pieces(pieces, _) => match self.placed.get(index) {
+                Some(placed) => placed.by_area(u)?,
+                None => pieces[index].placed(&m).by_area(u)?,
+            },
+            Form::Mesh(mesh) => {
+                let corners = mesh_corners(mesh, index, time);
+                let chosen = triangle_by_area(corners.map(|p| m.transform_point3(p)), u)?;
+                let turned = mesh_turns(mesh, index, corners) != mirrors(&m);
+                Chosen { n: if turned { -chosen.n } else { chosen.n }, ..chosen }
+            }
+        };
+        Some(if self.reversed { Chosen { n: -chosen.n, ..chosen } } else { chosen })
+    }
+
+    /// The density of [`Emitter::point_of`] at a point of part `part`, and the piece or triangle that it is on.
+    pub(super) fn density_of(&self, time: f32, (p, n, part): (DVec3, DVec3, u32)) -> (f64, usize) {
+        let m = self.track.at(time);
+        match &self.form {
+            Form::Mesh(mesh) => {
+                let corners = mesh_corners(mesh, part as usize, time).map(|p| m.transform_point3(p));
+                (1.0 / triangle::area(corners), part as usize)
+            }
+            Form::Pieces(pieces, _) => {
+                let index = self.piece_at(part, time, p);
+                let placed = match self.placed.get(index) {
+                    Some(placed) => Cow::Borrowed(placed),
+                    None => Cow::Owned(pieces[index].placed(&m)),
+                };
+                (placed.area_density(p, n), index)
+            }
+        }
+    }
+
+    /// The part of the shape that a piece or triangle belongs to.
+    pub(super) fn part_of(&self, index: usize) -> u32 {
+        match &self.form {
+            Form::Mesh(_) => index as u32,
+            Form::Pieces(_, starts) => {
+                starts.partition_point(|start| *start as usize <= index).saturating_sub(1) as u32
+            }
+        }
+    }
+
+    /// The areas by which pieces are chosen for particles.
+    pub(super) fn areas(&self) -> Vec<f64> {
+        self.form.areas(&self.track)
+    }
+
+    /// Of the pieces of a part the one that holds a point: a flat part may have several triangles.
+    fn piece_at(&self, part: u32, time: f32, p: DVec3) -> usize {
+        let (part, Form::Pieces(pieces, starts)) = (part as usize, &self.form) else { return part as usize };
+        let m = self.track.at(time);
+        let holds = |i: usize| match self.placed.get(i) {
+            Some(placed) => placed.holds(p),
+            None => pieces[i].placed(&m).holds(p),
+        };
+        let first = starts.get(part).map_or(0, |i| *i as usize);
+        let end = starts.get(part + 1).map_or(pieces.len(), |i| *i as usize);
+        (first..end).find(|&i| i + 1 == end || holds(i)).unwrap_or(first)
+    }
+
     /// Where textures are looked up at point `p`, with normal `n`, of a piece or triangle.
     pub(super) fn texture_at(&self, time: f32, (p, n): (DVec3, DVec3), piece: usize) -> TextureAt {
         let m = self.track.at(time);
@@ -161,17 +227,13 @@ impl Emitter {
                 let corners = mesh_corners(mesh, part, time).map(|p| m.transform_point3(p));
                 self.share(from, part) * triangle_density(corners, from, p)
             }
-            Form::Pieces(pieces, starts) => {
-                let m = self.track.at(time);
-                let placed = |i: usize| match self.placed.get(i) {
-                    Some(placed) => Cow::Borrowed(placed),
-                    None => Cow::Owned(pieces[i].placed(&m)),
+            Form::Pieces(pieces, _) => {
+                let index = self.piece_at(part as u32, time, p);
+                let density = match self.placed.get(index) {
+                    Some(placed) => placed.density(from, p, n),
+                    None => pieces[index].placed(&self.track.at(time)).density(from, p, n),
                 };
-                let first = starts.get(part).map_or(0, |i| *i as usize);
-                let end = starts.get(part + 1).map_or(pieces.len(), |i| *i as usize);
-                // A flat part of several triangles: the one that holds the point.
-                let index = (first..end).find(|&i| i + 1 == end || placed(i).holds(p)).unwrap_or(first);
-                self.share(from, index) * placed(index).density(from, p, n)
+                self.share(from, index) * density
             }
         }
     }

@@ -1,8 +1,8 @@
 //! How bright the points of a light are.
 use std::sync::Arc;
 
-use durer_core::spectrum::{Basis, Color};
-use durer_scene::{Args, ColorInput};
+use durer_core::spectrum::{Basis, Color, LightColor, Spectrum};
+use durer_scene::{Args, ColorInput, LightInput};
 
 use super::super::{largest, picture::Picture};
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
 #[derive(Clone, Debug)]
 pub(super) enum Glow {
     /// The same everywhere.
-    Even(Color),
+    Even(LightColor),
     /// A texture of the scene.
     Texture(u32),
     /// A picture over the surface coordinates.
@@ -31,12 +31,12 @@ impl Glow {
             }
             let picture = Picture::read(args, "filename");
             // The placeholder of a missing picture.
-            let missing = Self::Even(Color::new(1.0, 0.0, 1.0));
+            let missing = Self::Even(Color::new(1.0, 0.0, 1.0).into());
             return args.is_sound().then(|| picture.map_or(missing, |p| Self::Picture(Arc::new(p))));
         }
-        match args.color_input("L") {
-            ColorInput::Texture(index) => Some(Self::Texture(index)),
-            ColorInput::Constant(color) => {
+        match args.light_input("L") {
+            LightInput::Texture(index) => Some(Self::Texture(index)),
+            LightInput::Even(color) => {
                 if args.is_set("power") && color.luminance() <= 0.0 {
                     args.error("L", "a light of \"power\" needs a colour \"L\" that is not black");
                 }
@@ -45,9 +45,9 @@ impl Glow {
         }
     }
     /// The radiance if it is the same everywhere.
-    pub(super) fn even(&self) -> Option<Color> {
+    pub(super) fn even(&self) -> Option<&LightColor> {
         match self {
-            Self::Even(color) => Some(*color),
+            Self::Even(color) => Some(color),
             Self::Texture(_) | Self::Picture(_) => None,
         }
     }
@@ -71,34 +71,34 @@ impl Looks {
     pub(super) fn has_holes(&self) -> bool {
         self.holes.is_some()
     }
-    /// The largest component that [`Looks::color`] may give.
+    /// The largest component that [`Looks::radiance`] may give to red, green and blue.
     pub(super) fn largest(&self, glow: &Glow) -> f32 {
         let cx = ShadeCx { basis: Basis::Rgb, textures: &self.textures, log: None };
         match glow {
-            Glow::Even(color) => largest(*color),
+            Glow::Even(color) => largest(color.color),
             Glow::Texture(index) if self.textures.get(*index as usize).is_none() => 0.0,
-            Glow::Texture(index) => cx.largest_color(ColorInput::Texture(*index)),
+            Glow::Texture(index) => cx.largest_color(&ColorInput::Texture(*index)),
             Glow::Picture(picture) => picture.largest(),
         }
     }
     /// The radiance where textures are looked up at `at`, by the share of the surface that is there; black in a hole.
-    pub(super) fn color(&self, glow: &Glow, basis: Basis, at: &TextureAt) -> Color {
-        let cx = ShadeCx { basis, textures: &self.textures, log: None };
+    pub(super) fn radiance(&self, glow: &Glow, basis: &Basis, at: &TextureAt) -> Spectrum {
+        let cx = ShadeCx { basis: *basis, textures: &self.textures, log: None };
         let there =
             self.holes.as_ref().map(|(materials, index)| materials[*index as usize].coverage(&cx, at));
         match there {
-            Some(0.0) => Color::BLACK,
+            Some(0.0) => Spectrum::BLACK,
             Some(share) => self.shown(glow, &cx, at) * share,
             None => self.shown(glow, &cx, at),
         }
     }
-    fn shown(&self, glow: &Glow, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        match glow {
-            Glow::Even(color) => *color,
+    fn shown(&self, glow: &Glow, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
+        cx.basis.emission(match glow {
+            Glow::Even(color) => return cx.basis.light(color),
             // Asked for before the scene's textures are known.
             Glow::Texture(index) if self.textures.get(*index as usize).is_none() => Color::BLACK,
-            Glow::Texture(index) => cx.color(ColorInput::Texture(*index), at).map(|v| v.max(0.0)),
+            Glow::Texture(index) => cx.color(&ColorInput::Texture(*index), at).map(|v| v.max(0.0)),
             Glow::Picture(picture) => picture.at([at.uv.x, 1.0 - at.uv.y]),
-        }
+        })
     }
 }

@@ -16,21 +16,24 @@ mod placed;
 mod rectangle;
 mod triangle;
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::OnceLock};
 
 use durer_core::{
     glam::DVec3,
     math::{
-        Normal3, Point3, Vector3,
+        Frame, Normal3, Point2, Point3, Vector3,
         error::{gamma, offset_ray_origin},
     },
-    sampling::{Dim, Sampler},
-    spectrum::{Basis, Spectrum},
+    sampling::{Dim, Sampler, cosine_hemisphere},
+    spectrum::{Basis, Color, Spectrum},
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use self::{emitter::Emitter, glow::Glow};
-use super::{Light, LightBound, LightBounds, LightCx, LightHit, LightSample, POWER, Track};
+use self::{emitter::Emitter, glow::Glow, placed::Chosen};
+use super::{
+    Emitted, Extent, Leaving, Light, LightBound, LightBounds, LightCx, LightHit, LightSample, POWER, Source,
+    Track, steps,
+};
 use crate::{Surface, shape::Geometry, texture::TextureAt};
 
 pub use self::glow::{Looks, Materials, Textures};
@@ -96,6 +99,8 @@ pub struct Area {
     factor: f32,
     /// Mean luminance over the surface, which counts as black where it has holes.
     mean: f32,
+    /// See [`Area::shares`], once asked for.
+    shares: OnceLock<Vec<f32>>,
 }
 
 impl Area {
@@ -111,7 +116,7 @@ impl Area {
     ) -> Result<Self, &'static str> {
         let emitter = Emitter::new(geometry, track, emission.sides, orientation == Orientation::Reversed)?;
         let (emission, looks) = (emission.clone(), Looks::default());
-        Ok(Self { emitter, emission, looks, factor: 1.0, mean: 0.0 }.measured())
+        Ok(Self { emitter, emission, looks, factor: 1.0, mean: 0.0, shares: OnceLock::new() }.measured())
     }
 
     /// The same with the textures and holes of its shape.
@@ -127,7 +132,8 @@ impl Area {
             None => {
                 let of = |&(share, p, n, piece): &(f64, DVec3, DVec3, usize)| {
                     let at = self.emitter.texture_at(f32::NEG_INFINITY, (p, n), piece);
-                    share as f32 * self.looks.color(&self.emission.glow, Basis::Rgb, &at).luminance()
+                    let radiance = self.looks.radiance(&self.emission.glow, &Basis::Rgb, &at);
+                    share as f32 * Color { rgb: Basis::Rgb.to_rgb(radiance) }.luminance()
                 };
                 self.emitter.spread().iter().map(of).sum()
             }
@@ -149,11 +155,52 @@ impl Area {
 
     /// The radiance where textures are looked up at `at`.
     fn radiance(&self, basis: Basis, at: impl FnOnce() -> TextureAt) -> Spectrum {
-        let color = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
-            Some(color) => color,
-            None => self.looks.color(&self.emission.glow, basis, &at()),
+        let radiance = match self.emission.glow.even().filter(|_| !self.looks.has_holes()) {
+            Some(color) => basis.light(color),
+            None => self.looks.radiance(&self.emission.glow, &basis, &at()),
         };
-        basis.emission(color * self.factor)
+        radiance * self.factor
+    }
+
+    /// A point of it moved to the side of `d` by more than its rounding, and that of a ray of this length.
+    fn beside(&self, chosen: &Chosen, d: Vector3, length: f64) -> Point3 {
+        let rounded = Point3::from_f64(chosen.p);
+        let slack = ((length + self.emitter.magnitude()) as f32) * gamma(8);
+        let error = (rounded - Point3::ZERO).abs() * gamma(8) + Vector3::splat(slack);
+        offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), d)
+    }
+
+    /// Sums of the shares of the pieces among particles: by area and mean luminance, of which none has less than a
+    /// tenth of all.
+    fn shares(&self) -> &[f32] {
+        self.shares.get_or_init(|| {
+            let mut weights: Vec<f64> = self.emitter.areas();
+            if self.emission.glow.even().is_none() || self.looks.has_holes() {
+                let mut found = vec![[0.0; 2]; weights.len()];
+                let mut all = [0.0; 2];
+                for (share, p, n, piece) in self.emitter.spread() {
+                    let at = self.emitter.texture_at(f32::NEG_INFINITY, (p, n), piece);
+                    let radiance = self.looks.radiance(&self.emission.glow, &Basis::Rgb, &at);
+                    let luminance = Color { rgb: Basis::Rgb.to_rgb(radiance) }.luminance();
+                    for sums in [&mut found[piece], &mut all] {
+                        *sums = [sums[0] + share * f64::from(luminance), sums[1] + share];
+                    }
+                }
+                let mean = |[light, share]: [f64; 2]| if share > 0.0 { light / share } else { 0.0 };
+                let least = 0.1 * mean(all);
+                weights.iter_mut().zip(found).for_each(|(weight, sums)| *weight *= mean(sums).max(least));
+            }
+            let largest = weights.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            let mut sums: Vec<f32> = weights.iter().map(|w| (w / largest) as f32).collect();
+            steps::accumulate(&mut sums);
+            sums
+        })
+    }
+
+    /// Density of particles along unit direction `d` where the normal is `n`, 1/sr.
+    fn density_along(&self, n: DVec3, d: DVec3) -> f32 {
+        let sides = if self.emission.sides == Sides::Both { 2.0 } else { 1.0 };
+        if self.shines(n, d) { (n.dot(d).abs() / (PI * sides)) as f32 } else { 0.0 }
     }
 
     /// Whether the side on which direction `w` lies shines, where the normal is `n`.
@@ -193,13 +240,52 @@ impl Light for Area {
         }
         // Shadow rays end before the surface by more than rounding can be wrong: that of the ray, which grows with its
         // length, and that of the placement.
-        let rounded = Point3::from_f64(chosen.p);
-        let slack = ((distance + self.emitter.magnitude()) as f32) * gamma(8);
-        let error = (rounded - Point3::ZERO).abs() * gamma(8) + Vector3::splat(slack);
-        let back = Vector3::from_f64(-towards);
-        let point = offset_ray_origin(rounded, error, Normal3::from_f64(chosen.n), back);
+        let point = self.beside(&chosen, Vector3::from_f64(-towards), distance);
+        let on = LightHit {
+            p: Point3::from_f64(chosen.p),
+            n: Normal3::from_f64(chosen.n),
+            part: self.emitter.part_of(piece),
+        };
         let wi = Vector3::from_f64(towards / distance);
-        Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32) })
+        Some(LightSample { wi, point: Some(point), weight, pdf: Some(chosen.density as f32), on: Some(on) })
+    }
+
+    fn emit(&self, cx: &LightCx, _within: &Extent, [place, u]: [Point2; 2]) -> Option<Emitted> {
+        let (index, rest, share) = steps::pick(self.shares(), place.x);
+        let chosen = self.emitter.point_of(index, cx.time, [rest.into(), place.y.into()])?;
+        let at = || self.emitter.texture_at(cx.time, (chosen.p, chosen.n), index);
+        let light = self.radiance(cx.basis, at);
+        let n = Normal3::from_f64(chosen.n);
+        let local = match self.emission.sides {
+            Sides::Outside => cosine_hemisphere(u),
+            Sides::Both => {
+                let (first, x) = if u.x < 0.5 { (1.0, 2.0 * u.x) } else { (-1.0, 2.0 * u.x - 1.0) };
+                cosine_hemisphere(Point2::new(x, u.y)) * first
+            }
+        };
+        let d = Frame::from_z(n).to_world(local).normalize();
+        let hit = LightHit { p: Point3::from_f64(chosen.p), n, part: self.emitter.part_of(index) };
+        let pdf_place = share * chosen.density as f32;
+        let pdf_direction = self.density_along(n.to_f64(), d.to_f64());
+        (pdf_place > 0.0 && pdf_direction > 0.0 && !light.is_black()).then_some(Emitted {
+            p: self.beside(&chosen, d, 0.0),
+            d,
+            source: Source::Surface(hit),
+            light,
+            pdf_place,
+            pdf_direction,
+        })
+    }
+
+    fn emission_pdf(&self, cx: &LightCx, _within: &Extent, ray: &Leaving) -> [f32; 2] {
+        let Some(hit) = &ray.hit else { return [0.0; 2] };
+        let (p, n) = (hit.p.to_f64(), hit.n.to_f64());
+        let (density, index) = self.emitter.density_of(cx.time, (p, n, hit.part));
+        [steps::share(self.shares(), index) * density as f32, self.density_along(n, ray.d.to_f64())]
+    }
+
+    fn is_emitter(&self) -> bool {
+        self.is_sampled()
     }
 
     fn bound(&self) -> LightBound {

@@ -24,7 +24,7 @@ pub(super) struct Chosen {
     pub(super) p: DVec3,
     /// Unit normal there, on the outside.
     pub(super) n: DVec3,
-    /// Density of its direction, 1/sr.
+    /// Density of its direction, 1/sr; of points chosen by area, over that, 1/m².
     pub(super) density: f64,
 }
 
@@ -60,6 +60,9 @@ struct Curved {
     /// -1 if the placement mirrors, else 1.
     sign: f64,
 }
+
+/// How far from a shape it is looked at along its normal, by its size.
+const ASIDE: f64 = 1e-3;
 
 /// How far what keeps its proportions may be off.
 const PROPORTIONAL: f64 = 1e-6;
@@ -113,6 +116,29 @@ impl Placed {
         Some(if self.turned { Chosen { n: -chosen.n, ..chosen } } else { chosen })
     }
 
+    /// A point of it with its normal, and the density of that over its area, 1/m²; `u` in `[0, 1)²`.
+    pub(super) fn by_area(&self, u: [f64; 2]) -> Option<Chosen> {
+        let chosen = match &self.form {
+            Form::Sphere { inside: curved, .. } | Form::Curved(curved) => curved.by_area(u)?,
+            Form::Triangle(corners) => triangle_by_area(*corners, u)?,
+            Form::Halves([[corner, a, b], _]) => {
+                parallelogram_by_area(*corner, [*a - *corner, *b - *corner], u)?
+            }
+            Form::Rectangle(rectangle) => parallelogram_by_area(rectangle.corner, rectangle.edges, u)?,
+        };
+        Some(if self.turned { Chosen { n: -chosen.n, ..chosen } } else { chosen })
+    }
+
+    /// The density of [`Placed::by_area`] at `p`, a point of it with unit normal `n`.
+    pub(super) fn area_density(&self, p: DVec3, n: DVec3) -> f64 {
+        match &self.form {
+            Form::Sphere { inside: curved, .. } | Form::Curved(curved) => curved.area_density(p, n),
+            Form::Triangle(corners) => 1.0 / triangle::area(*corners),
+            Form::Halves([half, _]) => 0.5 / triangle::area(*half),
+            Form::Rectangle(rectangle) => 1.0 / rectangle.edges[0].cross(rectangle.edges[1]).length(),
+        }
+    }
+
     /// The density with which [`Placed::choose`] gives, for `from`, the direction of `p`, a point of it with unit normal
     /// `n`. 1/sr.
     pub(super) fn density(&self, from: DVec3, p: DVec3, n: DVec3) -> f64 {
@@ -149,11 +175,27 @@ impl Curved {
     }
 
     fn choose(&self, from: DVec3, u: [f64; 2]) -> Option<Chosen> {
+        let Chosen { p, n, density } = self.by_area(u)?;
+        by_angle(p, n, density, from)
+    }
+
+    /// A point with its density over the area, 1/m².
+    fn by_area(&self, u: [f64; 2]) -> Option<Chosen> {
         let AreaPoint { p, n, density } = self.shape.by_area(Point2::new(u[0] as f32, u[1] as f32))?;
         let n = self.cofactors * n;
         let growth = n.length();
         let outside = if growth > 0.0 { n * (self.sign / growth) } else { DVec3::ZERO };
-        by_angle(self.m.transform_point3(p), outside, density / growth, from)
+        Some(Chosen { p: self.m.transform_point3(p), n: outside, density: density / growth })
+    }
+
+    /// That density at `p`, where the unit normal is `n`: as one sees it who looks along the normal.
+    fn area_density(&self, p: DVec3, n: DVec3) -> f64 {
+        let back = self.m.inverse();
+        let aside = f64::from(self.shape.bounds().diagonal().length()) * ASIDE;
+        let own = back.transform_point3(p);
+        let from = own + (self.m.matrix3.transpose() * n).normalize_or_zero() * aside;
+        let growth = self.m.matrix3.determinant().abs() / (self.m.matrix3.transpose() * n).length();
+        self.shape.area_density(from, own) / growth
     }
 
     fn density(&self, from: DVec3, p: DVec3, n: DVec3) -> f64 {
@@ -199,6 +241,18 @@ fn in_triangle(&[a, b, c]: &[DVec3; 3], p: DVec3) -> bool {
     let n = (b - a).cross(c - a);
     let inside = |a: DVec3, b: DVec3| (b - a).cross(p - a).dot(n) >= 0.0;
     inside(a, b) && inside(b, c) && inside(c, a)
+}
+
+/// A point of a triangle, by area.
+pub(super) fn triangle_by_area(corners: [DVec3; 3], u: [f64; 2]) -> Option<Chosen> {
+    let n = triangle::normal(corners)?;
+    Some(Chosen { p: triangle::point_by_area(corners, u), n, density: 1.0 / triangle::area(corners) })
+}
+
+fn parallelogram_by_area(corner: DVec3, [e, f]: [DVec3; 2], u: [f64; 2]) -> Option<Chosen> {
+    let across = e.cross(f);
+    let density = 1.0 / across.length();
+    density.is_finite().then(|| Chosen { p: corner + e * u[0] + f * u[1], n: across * density, density })
 }
 
 /// A point of a triangle in render space.

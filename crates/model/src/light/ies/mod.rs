@@ -71,7 +71,7 @@ impl Kind for Ies {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let bytes = args.file("filename");
-        let color = args.color("I");
+        let color = args.light_color("I");
         let (from, to): (Point3, Point3) = (args.triple("from").into(), args.triple("to").into());
         let down = axis(args, from, to);
         if !args.is_sound() {

@@ -34,7 +34,7 @@ impl Layout {
     }
 
     /// Place in the picture, `(0, 0)` its upper left corner and `(1, 1)` the lower right one, of unit direction `d`.
-    pub(in super::super) fn uv(self, d: Vector3) -> [f32; 2] {
+    pub(crate) fn uv(self, d: Vector3) -> [f32; 2] {
         match self {
             Self::LatitudeLongitude => {
                 let azimuth = atan2(d.y, d.x);

@@ -14,9 +14,9 @@ use std::{f32::consts::PI, sync::Arc};
 
 use durer_core::{
     glam::DAffine3,
-    math::{Normal3, Point3, Transform, Vector3},
+    math::{Normal3, Point2, Point3, Transform, Vector3},
     sampling::{Dim, Sampler},
-    spectrum::{Basis, Color, Spectrum},
+    spectrum::{Basis, Color, LightColor, Spectrum},
 };
 use durer_scene::{Args, Image, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
@@ -29,15 +29,15 @@ use self::{
     pyramid::Pyramid,
 };
 use super::{
-    LEAST_REACH, Light, LightBound, LightCx, LightSample, Track, UNIFORM, largest, picture::unfit, scaled,
-    sky_power, uniform_direction,
+    Emitted, Extent, LEAST_REACH, Leaving, Light, LightBound, LightCx, LightSample, Source, Track, UNIFORM,
+    largest, picture::unfit, scaled, sky_power, uniform_direction,
 };
 
 /// A sky all around.
 #[derive(Debug)]
 pub struct Infinite {
     /// Radiance, or factor on the picture.
-    radiance: Color,
+    radiance: LightColor,
     picture: Option<Box<Picture>>,
     /// In world space.
     portal: Option<Portal>,
@@ -126,7 +126,7 @@ impl Kind for Infinite {
         }
         let Some(image) = image else {
             // The placeholder of a missing picture.
-            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0))));
+            return Some(Box::new(even(Color::new(1.0, 0.0, 1.0).into())));
         };
         if let Some(reason) = unfit(&image) {
             args.error("filename", format!("{}: {reason}", args.text("filename")));
@@ -154,7 +154,7 @@ impl Kind for Infinite {
             scale *= wanted / found;
         }
         let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
-        Some(Box::new(Self { picture, ..even(Color::gray(scale)) }))
+        Some(Box::new(Self { picture, ..even(Color::gray(scale).into()) }))
     }
 }
 
@@ -178,18 +178,32 @@ impl Infinite {
         let panorama = Panorama::new(image, layout);
         let pyramid = Pyramid::of(&panorama);
         let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
-        Self { radiance: Color::gray(scale), picture, portal: None, view: None }
+        Self { radiance: Color::gray(scale).into(), picture, portal: None, view: None }
     }
     /// Mean luminance over the sphere.
     fn mean(&self) -> f32 {
         let of = |picture: &Picture| picture.density.as_ref().map_or(0.0, |density| density.mean);
         self.radiance.luminance() * self.picture.as_deref().map_or(1.0, of)
     }
+    /// A direction for the whole scene, portal or not, and its density, 1/sr; `None` if all is black.
+    fn direction(&self, u: Point2) -> Option<(Vector3, f32)> {
+        let Some(picture) = &self.picture else { return Some(uniform_direction(u)) };
+        let (d, pdf) = picture.density.as_ref()?.draw([u.x, u.y]);
+        let wi = picture.render_from_light.vector(d).normalize();
+        Some((wi, picture.spread(pdf, picture.render_from_light.inverse().vector(wi))))
+    }
+    /// The density of [`Infinite::direction`].
+    fn density(&self, d: Vector3) -> f32 {
+        let Some(picture) = &self.picture else { return UNIFORM };
+        let towards = picture.render_from_light.inverse().vector(d);
+        let density = picture.density.as_ref().map_or(0.0, |density| density.at(towards.normalize()));
+        picture.spread(density, towards)
+    }
     /// What `look` says of the picture in a direction of render space; the constant radiance if there is none.
     fn emitted(&self, basis: Basis, d: Vector3, look: impl Fn(&Picture, Vector3) -> [f32; 3]) -> Spectrum {
-        let Some(picture) = &self.picture else { return basis.emission(self.radiance) };
+        let Some(picture) = &self.picture else { return basis.light(&self.radiance) };
         let d = picture.render_from_light.inverse().vector(d).normalize();
-        basis.emission(Color { rgb: look(picture, d) } * self.radiance)
+        basis.tinted(&self.radiance, Color { rgb: look(picture, d) })
     }
 }
 
@@ -211,17 +225,12 @@ impl Light for Infinite {
     fn sample(&self, cx: &LightCx, p: Point3, sampler: &Sampler) -> Option<LightSample> {
         let u = sampler.d2(Dim::Light);
         let through = self.view.as_ref().and_then(|view| view.draw(p, [u.x, u.y]));
-        let (wi, pdf) = match (through, &self.picture) {
-            (Some(drawn), _) => drawn,
-            (None, None) => uniform_direction(u),
-            (None, Some(picture)) => {
-                let (d, pdf) = picture.density.as_ref()?.draw([u.x, u.y]);
-                let wi = picture.render_from_light.vector(d).normalize();
-                (wi, picture.spread(pdf, picture.render_from_light.inverse().vector(wi)))
-            }
+        let (wi, pdf) = match through {
+            Some(drawn) => drawn,
+            None => self.direction(u)?,
         };
         let weight = self.escaped(cx.basis, wi) / pdf;
-        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf) })
+        (!weight.is_black()).then_some(LightSample { wi, point: None, weight, pdf: Some(pdf), on: None })
     }
     fn reach(&self, _p: Point3, n: Option<Normal3>, _time: f32) -> f32 {
         let mean = self.mean();
@@ -246,10 +255,20 @@ impl Light for Infinite {
         if let Some(pdf) = self.view.as_ref().and_then(|view| view.at(from, d)) {
             return pdf;
         }
-        let Some(picture) = &self.picture else { return UNIFORM };
-        let towards = picture.render_from_light.inverse().vector(d);
-        let density = picture.density.as_ref().map_or(0.0, |density| density.at(towards.normalize()));
-        picture.spread(density, towards)
+        self.density(d)
+    }
+    /// A portal is a help for points only: light comes from all directions.
+    fn emit(&self, cx: &LightCx, within: &Extent, [place, u]: [Point2; 2]) -> Option<Emitted> {
+        let (wi, pdf_direction) = self.direction(u)?;
+        let (light, (p, pdf_place)) = (self.escaped(cx.basis, wi), within.before(-wi, place));
+        let emitted = Emitted { p, d: -wi, source: Source::Far, light, pdf_place, pdf_direction };
+        (pdf_direction > 0.0 && !light.is_black()).then_some(emitted)
+    }
+    fn emission_pdf(&self, _cx: &LightCx, within: &Extent, ray: &Leaving) -> [f32; 2] {
+        [within.density_at(ray.p, ray.d), self.density(-ray.d)]
+    }
+    fn is_emitter(&self) -> bool {
+        self.is_sampled()
     }
     fn surrounds(&self) -> bool {
         true
@@ -257,7 +276,7 @@ impl Light for Infinite {
     /// Blurring makes nothing brighter.
     fn bound(&self) -> LightBound {
         let of_picture = self.picture.as_ref().map_or(1.0, |picture| picture.panorama.largest());
-        let most = largest(self.radiance) * of_picture;
+        let most = largest(self.radiance.color) * of_picture;
         LightBound { seen: most, ambient: most, ..LightBound::default() }
     }
     fn ambient(&self, basis: Basis, n: Normal3) -> Spectrum {

@@ -161,7 +161,7 @@ impl Layers {
         cos: f32,
     ) -> (Reflectance, Reflectance) {
         let specular = cx.float(self.specular, at).clamp(0.0, 1.0);
-        let tint = cx.basis.reflectance(cx.color(self.specular_color, at).map(|v| v.max(0.0)));
+        let tint = cx.weight(&self.specular_color, at, |v| v.max(0.0));
         let dielectric = (dielectric * tint).map(|v| v.min(1.0)) * specular;
         let f0 = dielectric * (1.0 - metallic) + base * metallic;
         let f90 = Spectrum::splat(1.0 - (1.0 - specular) * (1.0 - metallic));
@@ -174,9 +174,7 @@ impl Layers {
         }
         // The film's colour is that of the viewer's angle, for all facets.
         let under_film = |own: Reflectance| {
-            let [r, g, b] = cx.basis.to_rgb(own.ends().0);
-            let film =
-                cx.basis.reflectance(film::reflected(cos, self.film_eta, thickness, Color::new(r, g, b)));
+            let film = film::reflected(&cx.basis, cos, (self.film_eta, thickness), own.ends().0);
             let seen = own.at(cos) * (1.0 - share) + film * share;
             Reflectance::Schlick { f0: seen, f90: seen }
         };
@@ -190,7 +188,7 @@ impl Layers {
         if strength == 0.0 {
             return Facets::round(alpha);
         }
-        let [x, y] = self.direction.map_or([1.0, 0.0], |map| {
+        let [x, y] = self.direction.as_ref().map_or([1.0, 0.0], |map| {
             let [r, g, _] = cx.color(map, &at).rgb;
             [2.0 * r - 1.0, 2.0 * g - 1.0]
         });
@@ -208,7 +206,7 @@ impl Layers {
     /// The normal of the coat in the frame of the surface, whose normal without normal map is `smooth`.
     fn coat_normal(&self, cx: &ShadeCx<'_>, (surface, smooth): (&Surface, Normal3), wo: Vector3) -> Vector3 {
         let shape = Surface { n_s: smooth, ..*surface };
-        let normal = match self.coat_normal {
+        let normal = match &self.coat_normal {
             Some(map) => {
                 normal_map::tilted(&shape, cx.color(map, &surface.texture_at()), self.coat_normal_scale, wo)
             }
@@ -227,7 +225,7 @@ impl Layers {
         let at = surface.texture_at();
         let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
         let coat = unit(self.coat);
-        let sheen = cx.basis.reflectance(self.fibres(cx, &at)).max();
+        let sheen = self.fibres(cx, &at).rgb.into_iter().fold(0.0, f32::max);
         Veil {
             coat,
             coat_alpha: if coat > 0.0 { sqr(unit(self.coat_roughness)) } else { 0.0 },
@@ -240,7 +238,7 @@ impl Layers {
         }
     }
     fn fibres(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Color {
-        cx.color(self.sheen, at).map(|v| v.clamp(0.0, 1.0))
+        cx.color(&self.sheen, at).map(|v| v.clamp(0.0, 1.0))
     }
 
     /// Adds coat and fibres to `bsdf`, of a surface of which the share `coverage` is there.
@@ -273,7 +271,7 @@ impl Layers {
     pub(super) fn shine(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> (f32, Spectrum) {
         let share = cx.float(self.shine, at).clamp(0.0, 1.0);
         match share > 0.0 {
-            true => (share, cx.basis.reflectance(cx.color(self.shine_color, at).map(|v| v.clamp(0.0, 1.0)))),
+            true => (share, cx.weight(&self.shine_color, at, |v| v.clamp(0.0, 1.0))),
             false => (0.0, Spectrum::BLACK),
         }
     }
@@ -293,5 +291,5 @@ fn body(args: &mut Args<'_>) -> Option<Medium> {
         return None;
     }
     let absorption = distance.map_or(Color::BLACK, |d| color.map(|c| -ln(c.clamp(1e-6, 1.0)) / d));
-    Some(Medium { eta: args.float("eta"), absorption, priority: None })
+    Some(Medium { absorption, ..Medium::clear(args.float("eta")) })
 }

@@ -169,7 +169,7 @@ fn normal_frame(args: &mut Args<'_>) -> [f32; 4] {
 
 impl Principled {
     /// The shading normal under the normal map.
-    fn tilted(&self, cx: &ShadeCx<'_>, map: ColorInput, surface: &Surface, wo: Vector3) -> Normal3 {
+    fn tilted(&self, cx: &ShadeCx<'_>, map: &ColorInput, surface: &Surface, wo: Vector3) -> Normal3 {
         let [a, b, c, d] = self.normal_frame;
         let (dpdu, dpdv) = (surface.dpdu, surface.dpdv);
         let turned = Surface { dpdu: dpdu * a + dpdv * c, dpdv: dpdu * b + dpdv * d, ..*surface };
@@ -189,7 +189,7 @@ impl Principled {
     fn base(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let [r, g, b, _] = at.vertex_color;
         let vertex = cx.basis.reflectance(Color::new(r, g, b));
-        (share(cx, self.base, at) * vertex).map(|v| v.clamp(0.0, 1.0))
+        (share(cx, &self.base, at) * vertex).map(|v| v.clamp(0.0, 1.0))
     }
 }
 
@@ -257,7 +257,7 @@ impl Principled {
 impl Material for Principled {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         let (at, smooth) = (surface.texture_at(), surface.n_s);
-        if let Some(map) = self.normal {
+        if let Some(map) = &self.normal {
             surface.n_s = self.tilted(cx, map, surface, wo);
         }
         if self.unlit {
@@ -270,9 +270,9 @@ impl Material for Principled {
         let coverage = self.share_there(cx, at);
         if self.unlit {
             let [r, g, b, _] = at.vertex_color;
-            return cx.basis.emission(cx.color(self.base, at) * Color::new(r, g, b)) * coverage;
+            return cx.basis.emission(cx.color(&self.base, at) * Color::new(r, g, b)) * coverage;
         }
-        cx.basis.emission(cx.color(self.emission, at)) * (self.strength * coverage)
+        cx.basis.emission(cx.color(&self.emission, at)) * (self.strength * coverage)
     }
     /// Colours of vertices are taken to be at most 1. What passes, or is mirrored, is followed; at grazing angles that is
     /// everything.
@@ -287,7 +287,7 @@ impl Material for Principled {
         let passes = self.mode == AlphaMode::Blend || self.transmission != FloatInput::Constant(0.0);
         if self.unlit {
             let followed = if passes { 1.0 } else { 0.0 };
-            return Sent { own: 0.0, scattered: cx.largest_color(self.base), followed };
+            return Sent { own: 0.0, scattered: cx.largest_color(&self.base), followed };
         }
         let is_dull =
             arriving.gloss == GlossRays::Main && alpha.is_some_and(|alpha| alpha >= Glossy::BLURRED);
@@ -296,7 +296,7 @@ impl Material for Principled {
             alpha => alpha.map_or(f32::INFINITY, ggx_gain),
         };
         Sent {
-            own: cx.largest_color(self.emission) * self.strength + arriving.highlight(gain),
+            own: cx.largest_color(&self.emission) * self.strength + arriving.highlight(gain),
             scattered: arriving.all(),
             followed: if is_dull && !passes { 0.0 } else { 1.0 },
         }
@@ -322,6 +322,6 @@ impl Material for Principled {
         self.one_sided
     }
     fn medium(&self) -> Option<Medium> {
-        self.layers.body.filter(|_| self.transmission != FloatInput::Constant(0.0))
+        self.layers.body.clone().filter(|_| self.transmission != FloatInput::Constant(0.0))
     }
 }

@@ -46,7 +46,7 @@ impl Lattice {
                 let done = trace_tile(job, watch, tile, values);
                 let mut shared = lock(&shared);
                 shared.0.write(tile, values);
-                shared.1.take(&done);
+                shared.1.take(job, &done);
                 drop(shared);
                 watch.progress.advance(done.samples, done.rays);
             },

@@ -137,7 +137,10 @@ fn value(
     done: &mut TileDone,
     bad: BadSample,
 ) -> [f32; 3] {
-    let value = job.take(&job.cx(), &eye(job, place), out, done).unwrap_or_default();
+    let eye = eye(job, place);
+    let cx = job.cx(&eye.ray.sampler);
+    let value = job.take(&cx, &eye, out, done).unwrap_or_default();
+    job.splat(&cx, out, done, bad);
     if value.iter().all(|v| v.is_finite()) {
         return value;
     }
@@ -174,7 +177,7 @@ pub(super) fn render(job: &Job<'_>, how: &Adaptive, watch: &Watch<'_>, rendered:
             let (pixels, done) = refine.tile(tile, watch, canvas);
             let mut shared = lock(&shared);
             shared.film.write(tile, &pixels);
-            shared.take(&done);
+            shared.take(job, &done);
             drop(shared);
             watch.progress.advance(tile.area(), done.rays);
         },

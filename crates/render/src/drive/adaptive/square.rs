@@ -187,8 +187,8 @@ impl<'a> Square<'a> {
             return *hit;
         }
         self.done.splits.get_or_insert_default().searches += 1;
-        let ray = eye(self.job, self.place(at)).ray.ray;
-        let hit = self.job.scene.closest(&self.job.cx(), &ray, &mut NoProbe, ());
+        let path = eye(self.job, self.place(at)).ray;
+        let hit = self.job.scene.closest(&self.job.cx(&path.sampler), &path.ray, &mut NoProbe, ());
         self.canvas.hits.push((at, hit));
         hit
     }

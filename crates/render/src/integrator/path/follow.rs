@@ -146,8 +146,13 @@ impl<'a, P: Probe> Follow<'a, P> {
         if self.course.regularize && ray.is_blurred {
             s.bsdf.regularize();
         }
-        s.bsdf.dim(arriving);
         let emission = arriving * (s.emission + self.lamp(ray, &s));
+        let mut arriving = arriving;
+        if crossing.disperses && !ray.is_collapsed {
+            ray.is_collapsed = true;
+            arriving *= self.walk.cx.basis.collapse();
+        }
+        s.bsdf.dim(arriving);
         if P::RECORDS {
             let black = Spectrum::BLACK;
             let parts = Parts { arrived: arriving, emission, ambient: black, blurred_sky: black };

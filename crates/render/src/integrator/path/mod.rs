@@ -9,7 +9,7 @@ mod report;
 
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Integrator, Start, Transport, walk::Rules};
+use super::{Integrator, LIGHT_SAMPLER, PATH_DEPTH, ROULETTE_DEPTH, Start, Transport, walk::Rules};
 use crate::{Contribution, LightSampler, SampleCx, probe::Probe};
 use follow::Follow;
 
@@ -28,20 +28,6 @@ struct Course {
 }
 
 impl Course {
-    const MAX_DEPTH: ParamSpec = ParamSpec::new(
-        "maxdepth",
-        ParamType::Int,
-        ParamDefault::Int(8),
-        "Bounces at most; 1 is direct light. 5 where a pbrt file is silent, as in pbrt-v4.",
-    )
-    .range(0.0, 10_000.0);
-    const LIGHT_SAMPLER: ParamSpec = ParamSpec::new(
-        "lightsampler",
-        ParamType::Choice(&LightSampler::WORDS),
-        ParamDefault::Text("tree"),
-        "How the light is chosen that a hit asks: each as often, by power, or by what it may send there.",
-    );
-
     fn from_args(args: &mut Args<'_>) -> Option<Self> {
         let rules = Rules { max_depth: args.int("maxdepth") as u32, ..Rules::PATH };
         let light_sampler = LightSampler::from_word(args.text("lightsampler"))?;
@@ -62,21 +48,15 @@ impl Kind for Path {
         aliases: &["volpath"],
         doc: "Path tracing with multiple importance sampling and Russian roulette: all light that surfaces scatter.",
         params: &[
-            Course::MAX_DEPTH,
-            Course::LIGHT_SAMPLER,
+            PATH_DEPTH,
+            LIGHT_SAMPLER,
             ParamSpec::new(
                 "regularize",
                 ParamType::Bool,
                 ParamDefault::Bool(false),
                 "Blurs nearly sharp reflections of what is seen after a blurred bounce: less noise, a little wrong.",
             ),
-            ParamSpec::new(
-                "roulettedepth",
-                ParamType::Int,
-                ParamDefault::Int(3),
-                "Bounces after which chance may end a path.",
-            )
-            .range(0.0, 10_000.0),
+            ROULETTE_DEPTH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -95,7 +75,7 @@ impl Kind for Direct {
         name: "direct",
         aliases: &["directlighting"],
         doc: "Direct light with multiple importance sampling; mirrors and glass are followed, nothing else is.",
-        params: &[Course::MAX_DEPTH, Course::LIGHT_SAMPLER],
+        params: &[PATH_DEPTH, LIGHT_SAMPLER],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         Some(Box::new(Path { course: Course { direct_only: true, ..Course::from_args(args)? } }))

@@ -22,7 +22,7 @@ impl<P: Probe> Walk<'_, P> {
             Imbalance::LeftUnentered => imbalances.add(object),
             Imbalance::TooDeep => imbalances.too_deep += 1,
         };
-        self.cx.scene.cross((s.object, &mut s.surface), (s.wo, s.time, t), before, complain)
+        self.cx.scene.cross(&self.cx.basis, (s.object, &mut s.surface), (s.wo, s.time, t), before, complain)
     }
 
     /// The share of light that is left of a ray in these bodies on its way from the surface point `from` to its parameter
@@ -38,9 +38,9 @@ impl<P: Probe> Walk<'_, P> {
             return Spectrum::ONE;
         }
         let media = &self.cx.scene.media;
-        let present = bodies.present(media).medium.map(|id| media.get(id));
+        let present = bodies.present(media, &self.cx.basis).medium.map(|id| media.get(id));
         match present.filter(|medium| medium.absorbs()) {
-            Some(medium) => medium.transmittance(self.cx.basis, way(from, ray, t)),
+            Some(medium) => medium.transmittance(&self.cx.basis, way(from, ray, t)),
             None => Spectrum::ONE,
         }
     }

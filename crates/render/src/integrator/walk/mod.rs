@@ -131,8 +131,16 @@ impl<'a, P: Probe> Walk<'a, P> {
             Boundary::Own => {}
         }
         let arriving = arriving * self.rules.attenuation(ray, hit.t);
-        s.bsdf.dim(arriving);
         let emission = arriving * (s.emission + self.lamp(ray, &s));
+        let collapsed;
+        let (ray, arriving) = match crossing.disperses && !ray.is_collapsed {
+            true => {
+                collapsed = PathRay { is_collapsed: true, ..*ray };
+                (&collapsed, arriving * cx.basis.collapse())
+            }
+            false => (ray, arriving),
+        };
+        s.bsdf.dim(arriving);
         let ambient = s.ambient(cx);
         let mut radiance = emission + ambient;
         let mut blurred_sky = Spectrum::BLACK;

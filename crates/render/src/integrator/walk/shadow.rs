@@ -18,13 +18,13 @@ use crate::{
 };
 
 /// What a light sends through whatever is in between.
-struct Passage {
+pub(in super::super) struct Passage {
     /// The share that arrives.
-    share: Spectrum,
+    pub(in super::super) share: Spectrum,
     /// What kept all of it.
-    blocker: Option<Id<Object>>,
+    pub(in super::super) blocker: Option<Id<Object>>,
     /// Why nothing arrives, if nothing does.
-    end: StopReason,
+    pub(in super::super) end: StopReason,
 }
 
 impl<P: Probe> Walk<'_, P> {
@@ -67,11 +67,7 @@ impl<P: Probe> Walk<'_, P> {
         id: P::Id,
     ) -> Spectrum {
         let shadow = self.probe.ray(id, path, RayKind::Shadow);
-        self.rays += 1;
-        let passage = match self.straight() {
-            Some(how) => self.passage(path, point, how, shadow),
-            None => self.free_passage(path, shadow),
-        };
+        let passage = self.way(path, point, shadow);
         let visible = !passage.share.is_black();
         let (passed, blocker) = (passage.share, passage.blocker);
         self.probe.light(shadow, &LightEvent { light, point, unoccluded, passed, visible, blocker });
@@ -83,6 +79,15 @@ impl<P: Probe> Walk<'_, P> {
         self.probe.stop(shadow, reason, Spectrum::BLACK);
         self.probe.result(shadow, arriving);
         arriving
+    }
+
+    /// What a straight ray to a point, or to infinity, lets pass.
+    pub(in super::super) fn way(&mut self, path: &PathRay, to: Option<Point3>, shadow: P::Id) -> Passage {
+        self.rays += 1;
+        match self.straight() {
+            Some(how) => self.passage(path, to, how, shadow),
+            None => self.free_passage(path, shadow),
+        }
     }
 
     /// How surfaces are passed; `None` if all of them block light, or there is none to be passed.

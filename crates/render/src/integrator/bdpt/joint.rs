@@ -1,0 +1,210 @@
+//! Edges between the eye's walk and a particle's, and what each path counts for.
+use durer_core::{math::Vector3, spectrum::Spectrum};
+
+use super::{
+    super::vertices::{End, Particle, Vertex, towards},
+    eye::EyeWalk,
+    weight::Densities,
+};
+use crate::{
+    Contribution, Splat,
+    probe::{Choice, ChosenBy, Probe},
+};
+
+impl<P: Probe> EyeWalk<'_, P> {
+    /// Joins the particle's vertices to the camera.
+    pub(super) fn splat(&mut self, id: P::Id, out: &mut Contribution) {
+        let Some(particle) = self.particle.filter(|_| self.walk.cx.scene.view.is_connectible()) else {
+            return;
+        };
+        for index in 0..particle.vertices.len() {
+            if self.own.ways.weight(index + 2, 1, || 1.0) == 0.0 {
+                continue;
+            }
+            let Some(sighting) = self.walk.sighting(particle, index, id) else { continue };
+            let share = || {
+                let vertex = &particle.vertices[index];
+                let cos = vertex.s.surface.n_g.dot(sighting.d).abs();
+                let mut densities =
+                    self.light_part(particle, index, (sighting.d, sighting.seen.importance * cos));
+                densities.is_seen = true;
+                densities.share(index + 2)
+            };
+            let weight = self.own.ways.weight(index + 2, 1, share);
+            out.splats.push(Splat { radiance: sighting.splat.radiance * weight, ..sighting.splat });
+        }
+    }
+
+    /// Adds what the particle's vertices send to a vertex of the eye's walk.
+    pub(super) fn join(
+        &mut self,
+        vertex: &Vertex,
+        there: f32,
+        (id, radiance): (P::Id, Spectrum),
+    ) -> Spectrum {
+        let Some(particle) = self.particle.filter(|_| vertex.is_connectible()) else { return radiance };
+        let t = self.vertices.len() + 2;
+        let mut sum = radiance;
+        for index in 0..particle.vertices.len() {
+            let s = index + 2;
+            // Bounces: all vertices but the ends.
+            if s + t - 2 > self.own.rules.max_depth as usize {
+                break;
+            }
+            if self.own.ways.weight(s, t, || 1.0) == 0.0 {
+                continue;
+            }
+            sum += self.edge(vertex, there, (particle, index), id);
+        }
+        sum
+    }
+
+    /// What one vertex of the particle sends to one of the eye's walk, by the share of this edge.
+    fn edge(
+        &mut self,
+        vertex: &Vertex,
+        there: f32,
+        (particle, index): (&Particle, usize),
+        id: P::Id,
+    ) -> Spectrum {
+        let other = &particle.vertices[index];
+        if !other.is_connectible() {
+            return Spectrum::BLACK;
+        }
+        let (d, distance) = towards(vertex.s.surface.p, other.s.surface.p);
+        let wi = vertex.s.frame.to_local(d);
+        let f = vertex.s.bsdf.eval_with_pdf(vertex.s.wo_local, wi).0;
+        if f.is_black() {
+            return Spectrum::BLACK;
+        }
+        let is_first = index == 0 && particle.end.is_sharp();
+        let mut sent = other.sent(-d, is_first);
+        if vertex.path.is_collapsed && other.path.is_collapsed {
+            // Both parts count their one wavelength for all four: once is enough.
+            sent = sent * 0.25;
+        }
+        let cos = other.s.surface.n_g.dot(d).abs();
+        let seen = f * (cos * wi.z.abs() * there / (distance * distance));
+        if sent.is_black() || !(seen * sent).is_finite() {
+            return Spectrum::BLACK;
+        }
+        let t = self.vertices.len() + 2;
+        let share = self.own.ways.weight(index + 2, t, || self.share_of_edge(vertex, (particle, index), d));
+        if P::RECORDS {
+            self.walk.probe.chosen(&Choice {
+                by: ChosenBy::Joined,
+                f: Some(f * there),
+                cos: Some(wi.z.abs()),
+                pdf: Some(vertex.pdf(vertex.s.wo, d)),
+                other_pdf: Some(other.pdf(other.s.wo, -d)),
+                mis: Some(share),
+                ..Choice::sharp()
+            });
+        }
+        let weight = seen * share;
+        weight * self.walk.joint(vertex, (other.beside(-d), d), (weight, sent), id)
+    }
+
+    /// The densities of a particle's vertices up to one, and of the light, where the path goes on in direction `d`; `met` is
+    /// the density with which a walk from there comes to that vertex.
+    fn light_part(&self, particle: &Particle, index: usize, (d, met): (Vector3, f32)) -> Densities {
+        let vertices = &particle.vertices[..=index];
+        let last = &vertices[index];
+        let back = last.pdf(d, last.s.wo);
+        let first = &vertices[0];
+        let p = last.s.surface.p;
+        let (to_light, from_first) = (first.s.wo, if index == 0 { d } else { -vertices[1].s.wo });
+        let asked = particle.end.asked(self.walk.cx, (first, from_first), to_light, self.own.light_sampler);
+        let end = match index {
+            0 => particle.end.by_area(back, p),
+            _ => particle.other,
+        };
+        let mut densities = Densities {
+            walks: vec![[particle.own, end]],
+            is_sharp: vec![false],
+            asked,
+            is_met: particle.end.is_met(),
+            is_seen: false,
+        };
+        for (i, vertex) in vertices.iter().enumerate() {
+            let other = match index - i {
+                0 => met,
+                1 => vertex.by_area(back, p),
+                _ => vertex.other,
+            };
+            densities.walks.push([vertex.own, other]);
+            densities.is_sharp.push(i < index && vertex.is_sharp);
+        }
+        densities
+    }
+
+    /// Adds the vertices of the eye's walk so far, of which the last is met from the light with density `met`, by a walk
+    /// that comes from the vertex that is joined to it.
+    fn add_eye_part(&self, densities: &mut Densities, met: Option<f32>) {
+        let count = self.vertices.len();
+        for (i, vertex) in self.vertices.iter().enumerate().rev() {
+            let other = if i + 1 == count { met.unwrap_or(vertex.other) } else { vertex.other };
+            densities.walks.push([other, vertex.own]);
+            densities.is_sharp.push(vertex.is_sharp);
+        }
+        densities.is_seen = self.walk.cx.scene.view.is_connectible();
+    }
+
+    fn share_of_edge(&self, vertex: &Vertex, (particle, index): (&Particle, usize), d: Vector3) -> f32 {
+        let other = &particle.vertices[index];
+        let (here, there) = (vertex.s.surface.p, other.s.surface.p);
+        let met = other.by_area(vertex.pdf(vertex.s.wo, d), here);
+        let mut densities = self.light_part(particle, index, (-d, met));
+        let reached = vertex.by_area(other.pdf(other.s.wo, -d), there);
+        densities.walks.push([reached, vertex.own]);
+        densities.is_sharp.push(false);
+        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.s.wo), here));
+        self.add_eye_part(&mut densities, before);
+        densities.share(index + 2)
+    }
+
+    /// The share of asking for a light, of which direction `d` leads there; with the chance of the light and, of lights with
+    /// extent, the density of the direction.
+    pub(super) fn share_of_asked(
+        &self,
+        end: &End,
+        vertex: &Vertex,
+        d: Vector3,
+        (chance, pdf): (f32, Option<f32>),
+    ) -> f32 {
+        let here = vertex.s.surface.p;
+        let asked = chance * pdf.map_or(1.0, |pdf| end.by_area(pdf, here));
+        let met = end.by_area(vertex.pdf(vertex.s.wo, d), here);
+        let [begun, reached] = end.begun(self.walk.cx, vertex, d);
+        let mut densities = Densities {
+            walks: vec![[begun, met], [reached, vertex.own]],
+            is_sharp: vec![false; 2],
+            asked,
+            is_met: end.is_met(),
+            is_seen: false,
+        };
+        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.s.wo), here));
+        self.add_eye_part(&mut densities, before);
+        densities.share(1)
+    }
+
+    /// The share of having met a light, in direction `d`, which the walk comes to with density `own`.
+    pub(super) fn share_of_met(&self, end: &End, d: Vector3, own: f32) -> f32 {
+        let Some(vertex) = self.vertices.last() else { return 1.0 };
+        let [begun, reached] = end.begun(self.walk.cx, vertex, d);
+        let asked = match vertex.is_sharp {
+            true => 1.0,
+            false => end.asked(self.walk.cx, (vertex, vertex.s.wo), d, self.own.light_sampler),
+        };
+        let mut densities = Densities {
+            walks: vec![[begun, own]],
+            is_sharp: vec![false],
+            asked,
+            is_met: true,
+            is_seen: false,
+        };
+        // The vertex itself is reached from the light; those before it by its own scattering.
+        self.add_eye_part(&mut densities, Some(reached));
+        densities.share(0)
+    }
+}

@@ -1,0 +1,124 @@
+//! Caustics: their place and their energy in closed form, and what they cost paths.
+use durer::{Options, Prepared, builtin, math::Point2, math::Point3};
+use durer_tests::{prepared, render, scene};
+
+fn means(scene: &Prepared) -> Vec<f64> {
+    render(scene).film.pixels().iter().map(|p| p.mean()[1].into()).collect()
+}
+
+fn caustic(integrator: &str, width: u32, samples: u32) -> Prepared {
+    let options = Options {
+        integrator: Some(integrator.to_owned()),
+        width: Some(width),
+        samples: Some(samples),
+        ..Options::default()
+    };
+    prepared(builtin::find("caustic").expect("built in").import(), &options)
+}
+
+/// A ball of index 1.5 and radius R focuses what comes from afar `n R / 2 (n - 1) = 1.5 R` behind its middle.
+#[test]
+fn the_lens_of_the_caustic_scene_gathers_the_light_where_its_focus_is() {
+    let scene = caustic("light", 320, 24);
+    let (lamp, middle) = (Point3::new(-3.6, 4.8, 0.6), Point3::new(-0.55, 0.7, 0.15));
+    let d = (middle - lamp).normalize();
+    let focus = middle + d * (1.5 * 0.5837);
+    assert!(focus.y.abs() < 2e-3, "it lies on the table: {focus:?}");
+    let view = &scene.scene.view;
+    let place = |p: Point3| {
+        let p = Point3::from_f64(p.to_f64() - view.world_from_render);
+        view.sees(p, Point2::new(0.5, 0.5), 0.0).expect("in front of the camera").film
+    };
+    let expected = place(focus);
+    // The middle of what is more than half as bright as the brightest block of 3 x 3 pixels near the ball's shadow.
+    let pixels = means(&scene);
+    let block =
+        |x: usize, y: usize| (0..9).map(|i| pixels[(y + i / 3 - 1) * 320 + x + i % 3 - 1]).sum::<f64>();
+    let near = |x: usize, y: usize| (x as f32 - expected.x).hypot(y as f32 - expected.y) < 25.0;
+    let places = || (1..199).flat_map(|y| (1..319).map(move |x| (x, y))).filter(|&(x, y)| near(x, y));
+    let most = places().map(|(x, y)| block(x, y)).fold(0.0, f64::max);
+    let (mut sum, mut at) = (0.0, [0.0; 2]);
+    for (x, y) in places().filter(|&(x, y)| block(x, y) > 0.5 * most) {
+        sum += block(x, y);
+        at = [at[0] + x as f64 * block(x, y), at[1] + y as f64 * block(x, y)];
+    }
+    let found = at.map(|v| v / sum + 0.5);
+    let off = (found[0] - f64::from(expected.x)).hypot(found[1] - f64::from(expected.y));
+    assert!(off < 4.0, "{found:?}, expected {expected:?}");
+    // Without the ball the table there has E / pi times its colour.
+    let distance = f64::from((focus - lamp).length());
+    let irradiance = 29000.0 * std::f64::consts::PI * (0.03 / distance).powi(2) * f64::from(-d.y);
+    assert!(most / 9.0 > 10.0 * 0.56 * irradiance / std::f64::consts::PI, "{most}");
+}
+
+/// Fresnel's equations for unpolarised light that enters a medium of index `n` at an angle.
+fn fresnel(cos: f64, n: f64) -> f64 {
+    let inside = (1.0 - (1.0 - cos * cos) / (n * n)).sqrt();
+    let s = (cos - n * inside) / (cos + n * inside);
+    let p = (n * cos - inside) / (n * cos + inside);
+    0.5 * (s * s + p * p)
+}
+
+/// Of parallel light that a ball intercepts `integral (1 - F)² 2 sin cos` goes straight through, on a screen below.
+#[test]
+fn as_much_light_goes_through_a_ball_as_fresnel_lets_pass() {
+    let world = "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] \"rgb L\" [1 1 1]\n\
+        AttributeBegin Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\" AttributeEnd\n\
+        Material \"diffusetransmission\" \"rgb reflectance\" [0 0 0] \"rgb transmittance\" [1 1 1]\n\
+        Shape \"bilinearmesh\" \"point3 P\" [-8 -1.1 -8  -8 -1.1 8  8 -1.1 -8  8 -1.1 8]";
+    let flux = |integrator: &str, depth: u32| {
+        let text = format!(
+            "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 48\nPixelFilter \"box\"\n\
+             LookAt 0 -3 0  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" [-6 6 -6 6]\n\
+             Integrator \"{integrator}\" \"integer maxdepth\" {depth} \"integer roulettedepth\" 50\nWorldBegin\n{world}"
+        );
+        let pixels = means(&scene(&text, &Options { samples: Some(256), ..Options::default() }));
+        std::f64::consts::PI * pixels.iter().sum::<f64>() * 144.0 / pixels.len() as f64
+    };
+    let n = 4096;
+    let angles = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n));
+    // d(sin²) = 2 sin cos dtheta
+    let share =
+        angles.map(|sin2| (1.0 - fresnel((1.0 - sin2).sqrt(), 1.5)).powi(2)).sum::<f64>() / f64::from(n);
+    let expected = std::f64::consts::PI * share;
+    for integrator in ["light", "bdpt"] {
+        // In and out, and spread by the screen; what is mirrored outside needs one bounce less.
+        let found = flux(integrator, 3) - flux(integrator, 2);
+        assert!((found / expected - 1.0).abs() < 0.015, "{integrator}: {found} W, expected {expected}");
+        // What goes by.
+        let beside = flux(integrator, 1);
+        let free = 144.0 - std::f64::consts::PI;
+        assert!((beside / free - 1.0).abs() < 4e-3, "{integrator}: {beside} W, expected {free}");
+    }
+}
+
+/// How much noise a picture has, and how many samples of paths have as little: docs/benchmarks.md.
+#[test]
+fn paths_take_many_times_the_samples_for_a_caustic() {
+    let slow = std::env::var_os("DURER_SLOW").is_some();
+    let (width, many) = if slow { (160, 2048) } else { (48, 256) };
+    let reference = means(&caustic("bdpt", width, many));
+    // Not where the lamp itself is mirrored: that both see, and nothing else would count.
+    let mut brightest: Vec<f64> = reference.clone();
+    brightest.sort_by(f64::total_cmp);
+    let most = brightest[brightest.len() - brightest.len() / 50];
+    let noise = |integrator: &str, samples: u32| {
+        let start = std::time::Instant::now();
+        let mut scene = caustic(integrator, width, samples);
+        scene.settings.seed = 7;
+        let found = means(&scene);
+        let dim: Vec<_> = found.iter().zip(&reference).filter(|(_, b)| **b < most).collect();
+        let squares = dim.iter().map(|(a, b)| (*a - *b).powi(2) / (*b * *b + 1e-2));
+        let error = squares.sum::<f64>() / dim.len() as f64;
+        eprintln!("{integrator} {samples} spp: relative MSE {error:.5}, {:?}", start.elapsed());
+        error
+    };
+    let both = noise("bdpt", 16);
+    noise("light", 16);
+    let few = noise("path", 16);
+    let more = noise("path", 256);
+    assert!(few > 4.0 * both && more > both, "bdpt {both}, path {few}, 16 times as many {more}");
+    if slow {
+        noise("path", 1600);
+    }
+}
