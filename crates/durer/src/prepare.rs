@@ -157,7 +157,7 @@ fn check_content(
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
     let built = scene.accel.stats();
-    if built.triangles + built.user_primitives > 0 {
+    if built.triangles + built.user_primitives + built.curve_segments > 0 {
         return Some(());
     }
     // Without lights of its own a scene is lit by ours, which shows nothing of the file.

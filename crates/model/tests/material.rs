@@ -137,7 +137,8 @@ fn lossless_materials_vanish_in_a_uniform_sky() {
 fn opaque_materials_look_the_same_from_both_sides() {
     let mut random = Random::new(2);
     let direction = |r: &mut Random| Vector3::from_f64(r.direction());
-    for entry in alone().filter(|e| e.schema.name != "dielectric") {
+    // Scales lean, and where a hair is hit is a matter of its sides.
+    for entry in alone().filter(|e| !["dielectric", "hair"].contains(&e.schema.name)) {
         let material = material(entry.schema.name, Params::new());
         for _ in 0..200 {
             let (wo, wi) = (direction(&mut random), direction(&mut random));

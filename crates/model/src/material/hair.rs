@@ -1,5 +1,8 @@
 //! Hair and fur, for the shape `curve` (Chiang and others 2016; see [`crate::bsdf::Hair`]).
-use durer_core::{math::Vector3, spectrum::Color};
+use durer_core::{
+    math::Vector3,
+    spectrum::{Color, Spectrum},
+};
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::Material;
@@ -72,16 +75,17 @@ impl Tinge {
     }
 
     /// Absorption per radius.
-    fn at(&self, cx: &ShadeCx<'_>, at: &TextureAt, beta_n: f32) -> Color {
+    fn at(&self, cx: &ShadeCx<'_>, at: &TextureAt, beta_n: f32) -> Spectrum {
         match self {
-            Self::Absorption(input) => cx.color(input, at).map(|v| v.max(0.0)),
+            Self::Absorption(input @ ColorInput::Curve(..)) => cx.weight(input, at, |v| v.max(0.0)),
+            Self::Absorption(input) => cx.basis.unbounded(cx.color(input, at).map(|v| v.max(0.0))),
             Self::Reflectance(input) => {
-                cx.color(input, at).map(|c| HairLobe::absorption(c.clamp(0.0, 1.0), beta_n))
+                cx.weight(input, at, |c| c.clamp(0.0, 1.0)).map(|c| HairLobe::absorption(c, beta_n))
             }
             Self::Pigment(inputs) => {
                 let [eu, pheo] = inputs.map(|input| cx.float(input, at).max(0.0));
                 let [r, g, b] = std::array::from_fn(|i| eu * EUMELANIN[i] + pheo * PHEOMELANIN[i]);
-                Color::new(r, g, b)
+                cx.basis.unbounded(Color::new(r, g, b))
             }
         }
     }
@@ -123,7 +127,7 @@ impl Material for Hair {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
         let at = surface.texture_at();
         let beta = self.beta.map(|input| cx.float(input, &at));
-        let sigma_a = cx.basis.unbounded(self.tinge.at(cx, &at, beta[1]));
+        let sigma_a = self.tinge.at(cx, &at, beta[1]);
         let frame = surface.frame();
         let (along, across) = (frame.to_local(surface.dpdu), frame.to_local(surface.dpdv));
         let strand = Strand {
