@@ -6,7 +6,10 @@ use durer_io::{
         pbrt::{Film, Plan, Written, write},
     },
 };
-use durer_render::integrator::{INTEGRATORS, PATHS};
+use durer_render::{
+    drive::Antialias,
+    integrator::{INTEGRATORS, PATHS},
+};
 use durer_scene::{Data, Location, Node, Param, ParamDefault, SceneDesc, ValueType};
 
 use crate::{
@@ -88,6 +91,12 @@ impl ToWrite<'_> {
         }
         if let Some(shutter) = options.shutter {
             words += &format!(" --shutter {},{}", shutter.min, shutter.max);
+        }
+        if let Some(crop) = options.crop {
+            words += &format!(" --crop {},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
+        }
+        if options.antialias != Antialias::Supersample {
+            words += " --antialias adaptive";
         }
         (!words.is_empty()).then(|| format!("What scene files do not say: render it with{words}."))
     }

@@ -3,7 +3,7 @@ use std::process::Stdio;
 
 use crate::run::{Place, Ran};
 
-const COMMANDS: [&str; 7] = ["render", "trace", "cost", "info", "scenes", "completions", "man"];
+const COMMANDS: [&str; 8] = ["render", "trace", "cost", "convert", "info", "scenes", "completions", "man"];
 
 #[test]
 fn every_help_has_examples() {

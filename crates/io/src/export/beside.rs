@@ -145,7 +145,7 @@ mod tests {
             ("-rf.png", "rf.png"),
             ("con.png", "file-con.png"),
             ("x/COM1", "file-COM1"),
-            ("--env /home/me/sky.exr", "sky.exr"),
+            ("--env light/sky.exr", "sky.exr"),
             ("ends.", "ends"),
         ] {
             assert_eq!(safe(path), name, "{path}");
