@@ -118,6 +118,7 @@ pub(crate) fn hits(lamp: &Lamp, o: DVec3, d: DVec3) -> Vec<LightHit> {
             }
             found
         }
+        Geometry::Strands(_) => panic!("no lamp is a curve"),
         Geometry::Shapes(parts) => {
             let back = lamp.place.inverse();
             let local = Ray::new(
