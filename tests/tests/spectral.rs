@@ -1,6 +1,4 @@
 //! Rays that carry wavelengths: what is grey is as it is with colours, what is bent goes where its index says.
-use std::f64::consts::PI;
-
 use durer::{Options, Prepared, builtin, film::Tile, spectrum::Carried};
 use durer_tests::{prepared, render, scene};
 
@@ -219,74 +217,4 @@ fn a_prism_turns_each_wavelength_as_its_index_says() {
             "{nm} nm: column {found:.2}, expected {expected:.2}"
         );
     }
-}
-
-/// Index of water against air: Daimon and Masumura 2007, 20 °C.
-fn water(nm: f64) -> f64 {
-    let square = nm * nm * 1e-6;
-    let terms = [
-        (0.568_402_756_5, 0.005_101_829_712),
-        (0.172_617_739_1, 0.018_211_539_36),
-        (0.020_861_895_78, 0.026_207_222_93),
-        (0.113_074_868_8, 10.697_927_21),
-    ];
-    (1.0 + terms.iter().map(|(b, c)| b * square / (square - c)).sum::<f64>()).sqrt() / 1.000_27
-}
-
-/// Angle from the point opposite to the sun, in degrees, beyond which drops of this index send nothing after one reflection
-/// (Descartes 1637): `cos i = sqrt((n² - 1) / 3)`, `4 r - 2 i`.
-fn bow(n: f64) -> f64 {
-    let i = ((n * n - 1.0) / 3.0).sqrt().acos();
-    (4.0 * (i.sin() / n).asin() - 2.0 * i).to_degrees()
-}
-
-#[test]
-fn the_rainbow_stands_where_the_index_of_water_has_it() {
-    assert!((bow(water(700.0)) - 42.49).abs() < 0.02 && (bow(water(400.0)) - 40.62).abs() < 0.02);
-    let imported = builtin::find("rainbow").expect("a scene").import();
-    // The top of the bow, left and right of the middle.
-    let (width, height) = (320u32, 160u32);
-    let crop = Some(Tile { x0: 90, y0: 0, x1: 230, y1: 60 });
-    let options = Options { width: Some(width), samples: Some(64), crop, ..Options::default() };
-    let film = render(&prepared(imported, &options)).film;
-    // Red and blue by the angle between a pixel and the point opposite to the sun, in bins of a quarter of a degree.
-    let bins = |channel: usize| {
-        let mut sums = vec![(0.0, 0.0); 240];
-        for y in 0..60 {
-            for x in 90..230 {
-                let half = 27f64.to_radians().tan();
-                let across = (2.0 * (f64::from(x) + 0.5) / f64::from(width) - 1.0) * 2.0 * half;
-                let up = (1.0 - 2.0 * (f64::from(y) + 0.5) / f64::from(height)) * half;
-                // The camera looks 22 degrees up.
-                let (sin, cos) = (22.0 * PI / 180.0).sin_cos();
-                let ahead = (cos - up * sin) / (1.0 + across * across + up * up).sqrt();
-                let bin = (ahead.acos().to_degrees() * 4.0) as usize;
-                let v = f64::from(film.pixels()[(y * width + x) as usize].mean()[channel]);
-                sums[bin.min(239)].0 += v;
-                sums[bin.min(239)].1 += 1.0;
-            }
-        }
-        sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect::<Vec<f64>>()
-    };
-    let peak = |bins: &[f64]| {
-        let near = 4 * 38..4 * 46;
-        let best = near.clone().max_by(|a, b| bins[*a].total_cmp(&bins[*b])).expect("bins");
-        // Its middle, by the neighbours.
-        let (sum, weight) = (best - 2..=best + 2)
-            .fold((0.0, 0.0), |(s, w), i| (s + bins[i] * (i as f64 + 0.5) * 0.25, w + bins[i]));
-        sum / weight
-    };
-    let (red, blue) = (bins(0), bins(2));
-    let (of_red, of_blue) = (peak(&red), peak(&blue));
-    eprintln!("red {of_red:.2}, blue {of_blue:.2}");
-    // Red is outside of blue, each within the sun's 0.7 degrees of its angle.
-    assert!((of_red - bow(water(620.0))).abs() < 0.6, "red at {of_red}, expected {}", bow(water(620.0)));
-    assert!((of_blue - bow(water(455.0))).abs() < 0.6, "blue at {of_blue}, expected {}", bow(water(455.0)));
-    assert!(of_red > of_blue + 0.3, "red {of_red}, blue {of_blue}");
-    // Beyond the bow it is darker than within (Alexander's dark band).
-    let average =
-        |bins: &[f64], from: usize, to: usize| bins[from..to].iter().sum::<f64>() / (to - from) as f64;
-    let bright = red[4 * 38..4 * 46].iter().copied().fold(0.0, f64::max);
-    let outside = average(&red, 4 * 44, 4 * 46);
-    assert!(bright > 2.0 * outside, "bow {bright}, outside {outside}");
 }

@@ -87,11 +87,6 @@ pub const SCENES: &[Builtin] = &[
         doc: "white light and five lines of a spectrum, seen through a prism of flint glass (in wavelengths)",
         text: include_str!("../scenes/prism.pbrt"),
     },
-    Builtin {
-        name: "rainbow",
-        doc: "a curtain of water drops with the sun behind the eye: the primary bow (in wavelengths)",
-        text: include_str!("../scenes/rainbow.pbrt"),
-    },
 ];
 
 /// The built-in scene of this name.
