@@ -28,12 +28,12 @@ impl Sums {
         for (i, (x, _)) in nodes.iter_mut().enumerate() {
             *x = i as f64 / (NODES - 1) as f64;
         }
-        for i in 0..COUNT {
+        for (i, (matching, light)) in MATCHING.iter().zip(DAYLIGHT).enumerate() {
             let at = i as f64 / (COUNT - 1) as f64 * (NODES - 1) as f64;
             let below = (at as usize).min(NODES - 2);
             let u = at - below as f64;
-            for c in 0..3 {
-                let all = f64::from(MATCHING[i][c]) * f64::from(DAYLIGHT[i]);
+            for (c, weight) in matching.iter().enumerate() {
+                let all = f64::from(*weight) * f64::from(light);
                 nodes[below].1[c] += all * (1.0 - u);
                 nodes[below + 1].1[c] += all * u;
             }

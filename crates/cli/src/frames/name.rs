@@ -24,6 +24,8 @@ fn place(name: &str) -> (String, usize, &str) {
         && let Some((digits, after)) = rest.split_once('d')
         && digits.len() <= 2
         && digits.chars().all(|c| c.is_ascii_digit())
+        // "50%done" is a word.
+        && !(digits.is_empty() && after.starts_with(char::is_alphabetic))
     {
         return (before.to_owned(), digits.parse().unwrap_or(1), after);
     }

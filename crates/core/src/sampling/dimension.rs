@@ -30,7 +30,7 @@ pub enum Dim {
 
 impl Dim {
     /// How many there are.
-    const COUNT: usize = 9;
+    const COUNT: usize = 10;
     /// How many sets [`Dim::in_set`] knows.
     const SETS: usize = 5;
 

@@ -10,6 +10,7 @@ mod dot;
 mod drawn;
 mod find;
 mod floating;
+mod fold;
 mod format;
 pub mod ghost;
 mod glb;

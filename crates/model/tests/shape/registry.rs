@@ -22,6 +22,7 @@ fn samples(kind: &str) -> Vec<Params> {
             let twisted = [[-1.0, -1.0, 0.5], [1.0, -1.0, -0.3], [-1.0, 1.0, -0.6], [0.8, 1.2, 0.4]];
             [corners, twisted].map(|c| Params::new().with("P", ty, points(&c).1)).to_vec()
         }
+        "curve" => vec![Params::new().with("P", ty, data)],
         "plymesh" => vec![Params::new().string("filename", "square.ply")],
         "trianglemesh" | "loopsubdiv" => {
             let indices = Data::Ints(vec![0, 1, 2, 0, 2, 3]);

@@ -55,7 +55,7 @@ pub(crate) fn raw(at: SocketAddr, request: impl AsRef<[u8]>) -> Vec<u8> {
 /// Status, head and body of what a path is answered with.
 pub(crate) fn get(live: &Live, path: &str) -> (u16, String, Vec<u8>) {
     let at = live.address();
-    let answer = raw(at, &format!("GET {path} HTTP/1.1\r\nHost: {at}\r\nConnection: close\r\n\r\n"));
+    let answer = raw(at, format!("GET {path} HTTP/1.1\r\nHost: {at}\r\nConnection: close\r\n\r\n"));
     parts(&answer)
 }
 

@@ -9,6 +9,9 @@ use durer_core::glam::DVec3;
 
 use super::frame;
 
+/// Points this near to the sphere, by the square of their distance to its middle, may as well be on it or inside.
+const ON_SPHERE: f64 = 4e-6;
+
 /// The cone of a sphere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
@@ -21,12 +24,13 @@ pub(super) struct Cone {
 }
 
 impl Cone {
-    /// The cone in which `from` sees the sphere; `None` from inside, and where that cannot be told.
+    /// The cone in which `from` sees the sphere; `None` from inside, and where that cannot be told: points of the sphere
+    /// itself are known to a few roundings of `f32`.
     pub(super) fn of(center: DVec3, radius: f64, from: DVec3) -> Option<Self> {
         let squared = (center - from).length_squared();
         let sin2 = radius * radius / squared;
         let opening = sin2 / (1.0 + (1.0 - sin2).sqrt());
-        (sin2 < 1.0 - 1e-12 && opening > 0.0).then(|| Self {
+        (sin2 < 1.0 - ON_SPHERE && opening > 0.0).then(|| Self {
             from,
             center,
             radius,

@@ -168,7 +168,6 @@ impl<'a, P: Probe> Follow<'a, P> {
         let own = arriving * (s.emission + self.lamp(ray, &s));
         // PERF: where nothing floats nothing is added (bench render).
         let emission = flight.map_or(own, |flight| own + flight.sent);
-        let mut arriving = arriving;
         if crossing.disperses && !ray.is_collapsed {
             ray.is_collapsed = true;
             arriving *= self.walk.cx.basis.collapse();
