@@ -351,7 +351,7 @@ fn a_picture_can_be_the_stop_and_stands_upright_in_it() {
 
 #[test]
 fn what_is_no_lens_is_refused_with_its_place() {
-    let refused = |text: &str, params: Params| build(text, params).err().expect("refused");
+    let refused = |text: &str, params: Params| build(text, params).expect_err("refused");
     for (text, params, expected) in [
         ("25 5 1.5", Params::new(), "lens: line 1: 3 numbers, expected 4"),
         ("# nothing", Params::new(), "lens: it has no refracting surface"),

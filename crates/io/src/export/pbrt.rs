@@ -171,8 +171,9 @@ impl Writer<'_> {
         let told =
             |name: &str, v: Option<f32>| v.map(|v| format!(" \"float {name}\" [ {v} ]")).unwrap_or_default();
         let back = told("diagonal", self.desc.film.diagonal_mm) + &told("iso", self.desc.film.iso);
+        let kind = if self.desc.film.spectral { "spectral" } else { "rgb" };
         self.line(&format!(
-            "Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{back}{file}"
+            "Film \"{kind}\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{back}{file}"
         ));
         self.line(&match sampler {
             SamplerKind::Regular | SamplerKind::Stratified => {

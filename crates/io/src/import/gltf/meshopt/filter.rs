@@ -78,9 +78,11 @@ mod tests {
             let numbers: Vec<f64> =
                 row.as_chunks::<2>().0.iter().map(|b| f64::from(i16::from_le_bytes(*b)) / 32767.0).collect();
             let x = f64::from(one / 2) / 2047.0 * 0.5f64.sqrt();
-            let mut expected = [0.0; 4];
-            expected[largest as usize] = (1.0 - x * x).sqrt();
-            expected[(largest as usize + 1) % 4] = x;
+            let expected: [f64; 4] = std::array::from_fn(|i| match i as i16 - largest {
+                0 => (1.0 - x * x).sqrt(),
+                1 | -3 => x,
+                _ => 0.0,
+            });
             assert!(
                 numbers.iter().zip(expected).all(|(a, b)| (a - b).abs() < 4e-5),
                 "{numbers:?} {expected:?}"
