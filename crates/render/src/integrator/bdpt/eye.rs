@@ -146,26 +146,27 @@ impl<P: Probe> EyeWalk<'_, P> {
             None => RayKind::sharp(scattered.kind),
             Some(_) => RayKind::drawn(scattered.kind),
         };
+        let is_sure = child.depth <= self.own.roulette_depth;
+        let kept = if is_sure { 1.0 } else { kept(child.throughput.max() / child.compression) };
+        let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+        let lives = u < kept;
         if P::RECORDS {
             let other = vertex.pdf(d, vertex.s.wo);
-            self.walk.probe.chosen(&chosen(&vertex.s, &scattered, (&sampler, other)));
+            let told = chosen(&vertex.s, &scattered, (&sampler, other));
+            self.walk.probe.chosen(&Choice { kept: if lives { kept } else { 1.0 }, ..told });
         }
         self.vertices.push(vertex);
-        if child.depth > self.own.roulette_depth {
-            let kept = kept(child.throughput.max() / child.compression);
-            let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
-            if u >= kept {
-                if P::ACTIVE {
-                    let refused = self.walk.probe.ray(id, &child, kind);
-                    self.walk.probe.limit(refused, Limit { value: u, threshold: kept });
-                    self.walk.probe.stop(refused, StopReason::Roulette, Spectrum::BLACK);
-                    self.walk.probe.result(refused, Spectrum::BLACK);
-                }
-                return Step::end(radiance);
+        if !lives {
+            if P::ACTIVE {
+                let refused = self.walk.probe.ray(id, &child, kind);
+                self.walk.probe.limit(refused, Limit { value: u, threshold: kept });
+                self.walk.probe.stop(refused, StopReason::Roulette, Spectrum::BLACK);
+                self.walk.probe.result(refused, Spectrum::BLACK);
             }
-            child.weight = child.weight / kept;
-            child.throughput = ray.throughput * child.weight;
+            return Step::end(radiance);
         }
+        child.weight = child.weight / kept;
+        child.throughput = ray.throughput * child.weight;
         Step { radiance, next: Some((child, kind)) }
     }
 
