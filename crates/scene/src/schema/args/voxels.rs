@@ -3,7 +3,7 @@ use super::Args;
 use crate::Voxels;
 
 impl Args<'_> {
-    /// The names of the grids of voxels in the file that a [`ParamType::File`] names; `None` as with images.
+    /// The names of the grids of voxels in the file that a [`crate::ParamType::File`] names; `None` as with images.
     pub fn grids(&mut self, name: &str) -> Option<Vec<String>> {
         let (assets, _) = self.assets?;
         self.found(name, assets.grids(self.text(name)), "nothing is shown")
