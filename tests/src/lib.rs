@@ -3,6 +3,7 @@
 
 pub mod look;
 pub mod program;
+pub mod small;
 
 use std::path::{Path, PathBuf};
 

@@ -1,51 +1,13 @@
 //! Bidirectional path tracing: the pictures of paths, in all ways at once and in each alone.
-use durer::{Options, Prepared};
-use durer_tests::{bits, render, scene};
-
-/// A picture of 12 x 8 pixels under an integrator as a file names it.
-fn picture(view: &str, integrator: &str, world: &str, samples: u32) -> Prepared {
-    let text = format!(
-        "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 8\n{view}\nIntegrator {integrator}\n\
-         WorldBegin\n{world}"
-    );
-    scene(&text, &Options { samples: Some(samples), ..Options::default() })
-}
-
-fn means(scene: &Prepared) -> Vec<[f64; 3]> {
-    render(scene).film.pixels().iter().map(|p| p.mean().map(f64::from)).collect()
-}
-
-fn total(pixels: &[[f64; 3]]) -> f64 {
-    pixels.iter().flatten().sum::<f64>() / (3 * pixels.len()) as f64
-}
-
-/// The relative difference of all light, and that of pixels (root mean square, by the mean).
-fn difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> (f64, f64) {
-    let (all, other) = (total(a), total(b));
-    let squares = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
-    (other / all - 1.0, (squares.sum::<f64>() / (3 * a.len()) as f64).sqrt() / all)
-}
+use durer::Options;
+use durer_tests::{
+    bits, render,
+    small::{AHEAD, BOX, LAMP, THINGS, agree, means, picture, total},
+};
 
 fn agrees(name: &str, view: &str, world: &str, samples: u32, limits: (f64, f64)) {
-    let [path, both] = ["path", "bdpt"].map(|word| {
-        let integrator = format!("\"{word}\" \"integer maxdepth\" 4");
-        means(&picture(view, &integrator, world, samples))
-    });
-    let (bias, error) = difference(&path, &both);
-    assert!(total(&path) > 1e-3, "{name} is dark");
-    assert!(bias.abs() < limits.0 && error < limits.1, "{name}: {bias}, pixels {error}\n{path:?}\n{both:?}");
+    agree(name, (["path", "bdpt"], "\"integer maxdepth\" 4"), view, world, samples, limits);
 }
-
-const AHEAD: &str = "LookAt 0 2 -6  0 0.6 0  0 1 0\nCamera \"perspective\" \"float fov\" 40";
-const BOX: &str = "PixelFilter \"box\"";
-const FLOOR: &str = "Material \"diffuse\" \"rgb reflectance\" [0.7 0.6 0.5]\n\
-    Shape \"bilinearmesh\" \"point3 P\" [-2 0 -2  -2 0 2  2 0 -2  2 0 2]\n";
-const BALLS: &str = "Material \"diffuse\" \"rgb reflectance\" [0.2 0.5 0.8]\n\
-    AttributeBegin Translate -0.6 0.5 0 Shape \"sphere\" \"float radius\" 0.5 AttributeEnd\n\
-    Material \"conductor\" \"float roughness\" 0.3\n\
-    AttributeBegin Translate 0.7 0.4 0.3 Shape \"sphere\" \"float radius\" 0.4 AttributeEnd\n";
-const LAMP: &str = "AttributeBegin Translate 0.5 2.6 -0.5 Rotate 90 1 0 0\nMaterial \"diffuse\"\n\
-    AreaLightSource \"diffuse\" \"rgb L\" [8 7 6] Shape \"disk\" \"float radius\" 0.6 AttributeEnd\n";
 
 #[test]
 fn e14_both_ways_find_what_paths_find_with_every_light() {
@@ -62,14 +24,14 @@ fn e14_both_ways_find_what_paths_find_with_every_light() {
         ("sphere", "AttributeBegin Translate 0 1.8 -0.6 AreaLightSource \"diffuse\" \"rgb L\" [20 15 10] Shape \"sphere\" \"float radius\" 0.2 AttributeEnd".to_owned()),
         ("many", format!("{LAMP}LightSource \"point\" \"point3 from\" [-2 2 -2] \"rgb I\" [2 3 4]\nLightSource \"infinite\" \"rgb L\" [0.1 0.1 0.1]")),
     ] {
-        agrees(name, &format!("{AHEAD}\n{BOX}"), &format!("{lights}\n{FLOOR}{BALLS}"), 512, (0.015, 0.06));
+        agrees(name, &format!("{AHEAD}\n{BOX}"), &format!("{lights}\n{THINGS}"), 512, (0.015, 0.06));
     }
 }
 
 #[test]
 fn e14_cameras_and_surfaces_change_nothing_of_it() {
     let looks = "LookAt 0 2 -6  0 0.6 0  0 1 0\n";
-    let world = format!("{LAMP}{FLOOR}{BALLS}");
+    let world = format!("{LAMP}{THINGS}");
     for (name, view) in [
         ("gauss", AHEAD.to_owned()),
         (
@@ -84,8 +46,7 @@ fn e14_cameras_and_surfaces_change_nothing_of_it() {
     ] {
         agrees(name, &view, &world, 512, (0.015, 0.06));
     }
-    let under =
-        |ball: &str| format!("{LAMP}{FLOOR}{BALLS}AttributeBegin Translate 0 1.6 -0.6 {ball} AttributeEnd");
+    let under = |ball: &str| format!("{LAMP}{THINGS}AttributeBegin Translate 0 1.6 -0.6 {ball} AttributeEnd");
     for (name, world) in [
         ("glass", under("Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\" \"float radius\" 0.5")),
         (
@@ -179,7 +140,7 @@ fn shares_of_the_strategies_sum_to_the_whole() {
 
 #[test]
 fn pictures_do_not_depend_on_threads() {
-    let world = format!("{LAMP}{FLOOR}{BALLS}");
+    let world = format!("{LAMP}{THINGS}");
     let of = |threads: usize| {
         let mut scene = picture(AHEAD, "\"bdpt\"", &world, 20);
         scene.settings.threads = threads;

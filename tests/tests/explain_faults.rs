@@ -5,9 +5,8 @@
 use durer::{
     Contribution, Options, PathRay, Prepared, SampleCx, Scene,
     explain::{Explanation, Law, check, explain},
-    integrator::{EyeSamples, Integrator, Output, Particles},
+    integrator::{EyeSamples, Facts, Integrator},
     math::Vector3,
-    model::material::GlossRays,
     probe::{Counters, RayKind, RayTree, Recorder, TreeNode},
     spectrum::Spectrum,
     tree::Subject,
@@ -27,20 +26,11 @@ impl Wrong {
 }
 
 impl Integrator for Wrong {
-    fn output(&self) -> Output {
-        self.inner.output()
+    fn facts(&self) -> Facts {
+        self.inner.facts()
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         self.inner.eye_samples(asked)
-    }
-    fn bounded(&self) -> Option<GlossRays> {
-        self.inner.bounded()
-    }
-    fn depth_limit(&self) -> Option<u32> {
-        self.inner.depth_limit()
-    }
-    fn particles(&self) -> Particles {
-        self.inner.particles()
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.inner.sample(&self.cx(cx), ray, out);

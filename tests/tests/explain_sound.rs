@@ -29,7 +29,7 @@ fn no_law_is_broken_in_the_built_in_scenes() {
         for options in settings() {
             let prepared = prepared(scene.import(), &options);
             // The water there is a plane without a bottom: whether a particle begins in it cannot be told.
-            if scene.name == "snell" && prepared.integrator.particles() != Particles::None {
+            if scene.name == "snell" && prepared.integrator.facts().particles != Particles::None {
                 continue;
             }
             pixels += check_pixels(scene.name, &prepared, 16);

@@ -42,8 +42,10 @@ fn range_text(spec: &ParamSpec) -> String {
     let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
     match spec.range {
         (f32::NEG_INFINITY, f32::INFINITY) => unit.trim().to_owned(),
+        (min, f32::INFINITY) if spec.open => format!("> {min}{unit}"),
         (min, f32::INFINITY) => format!("≥ {min}{unit}"),
         (f32::NEG_INFINITY, max) => format!("≤ {max}{unit}"),
+        (min, max) if spec.open => format!("> {min}, ≤ {max}{unit}"),
         (min, max) => format!("{min} to {max}{unit}"),
     }
 }

@@ -204,7 +204,7 @@ impl Args {
 
     pub(crate) fn warn_about_looks(&self, prepared: &Prepared) {
         let asked = self.tonemap.is_some() || self.exposure != 0.0;
-        if asked && !self.talk.quiet && prepared.integrator.output() != Output::Radiance {
+        if asked && !self.talk.quiet && prepared.integrator.facts().output != Output::Radiance {
             tell("warning: the picture shows no light: exposure and tone map change nothing");
         }
     }
@@ -212,7 +212,7 @@ impl Args {
     /// A picture that shows nothing explains itself.
     pub(crate) fn explain_darkness(&self, desc: &SceneDesc, picture: &Picture<'_>, outputs: &[Destination]) {
         let seen = outputs.iter().any(|output| output.format == PictureFormat::Png);
-        let shows_light = picture.prepared.integrator.output() == Output::Radiance;
+        let shows_light = picture.prepared.integrator.facts().output == Output::Radiance;
         if self.talk.quiet || !seen || !shows_light {
             return;
         }

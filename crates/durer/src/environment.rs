@@ -3,7 +3,7 @@
 //! It stands as in three.js, Blender and their kin: the top of the picture is +y, its middle +x, and somebody who looks
 //! there sees +z at the right. In a left-handed world (pbrt's, unless it is mirrored) he sees -z there, so that no picture
 //! appears mirrored.
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
@@ -14,6 +14,21 @@ use durer_model::light::SURROUNDINGS;
 use durer_scene::{
     AssetError, Assets, Data, Diagnostics, LightDesc, Location, Node, Param, Params, SceneDesc, ValueType,
 };
+
+use crate::Options;
+
+/// The description with the surroundings that the options ask for; `None` after a complaint.
+pub(crate) fn within<'a>(
+    desc: &'a SceneDesc,
+    options: &Options,
+    assets: &mut FileAssets,
+    diagnostics: &mut Diagnostics,
+) -> Option<Cow<'a, SceneDesc>> {
+    match &options.environment {
+        Some(file) => surround(desc, file, assets, diagnostics).map(Cow::Owned),
+        None => Some(Cow::Borrowed(desc)),
+    }
+}
 
 /// `desc` with the picture of `file` around it; its bytes become part of `assets`. `None` if it cannot be read, which was
 /// then complained about.

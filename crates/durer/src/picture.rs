@@ -77,7 +77,7 @@ impl Picture<'_> {
     }
 
     fn output(&self) -> Output {
-        self.prepared.integrator.output()
+        self.prepared.integrator.facts().output
     }
 
     fn view(&self) -> &View {

@@ -68,7 +68,7 @@ impl Prepared {
         if self.settings.carried == Carried::Wavelengths {
             return Err("bounds are known of red, green and blue, and rays carry wavelengths");
         }
-        match self.integrator.bounded() {
+        match self.integrator.facts().bounded {
             Some(gloss) => self.scene.brightest(gloss),
             None => Err("paths also follow the light between matte surfaces"),
         }
@@ -85,14 +85,7 @@ pub fn prepare(imported: &mut Imported, options: &Options) -> Option<Prepared> {
     if diagnostics.has_errors() {
         return None;
     }
-    let lit;
-    let desc = match &options.environment {
-        Some(file) => {
-            lit = environment::surround(desc, file, assets, diagnostics)?;
-            &lit
-        }
-        None => &*desc,
-    };
+    let desc = &*environment::within(desc, options, assets, diagnostics)?;
     let integrator = integrator_node(desc, options, diagnostics);
     prepared(desc, &integrator, options, diagnostics, |options, diagnostics| {
         compile::compile(desc, &*assets, options, diagnostics)
@@ -123,8 +116,8 @@ pub(crate) fn prepared(
     let (mut scene, integrator) = (scene?, integrator?);
     size?;
     check_content(desc, &scene, options.nothing, diagnostics)?;
-    let eye = integrator.eye_samples(samples(desc, options, integrator.output(), diagnostics));
-    filter(desc, &mut scene, integrator.output(), eye.total, diagnostics);
+    let eye = integrator.eye_samples(samples(desc, options, integrator.facts().output, diagnostics));
+    filter(desc, &mut scene, integrator.facts().output, eye.total, diagnostics);
     let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
     let carried = options.carried.unwrap_or(of_film);
     check_antialias(options, &scene, (&*integrator, carried), diagnostics);
@@ -207,7 +200,7 @@ fn check_antialias(
         diagnostics.warning(Location::None, message);
         return;
     }
-    if let Output::Data(_) = integrator.output() {
+    if let Output::Data(_) = integrator.facts().output {
         let message = "data pictures are not antialiased adaptively: their pixels are supersampled";
         diagnostics.warning(Location::None, message);
         return;
@@ -226,7 +219,7 @@ fn check_antialias(
 
 /// Says what particles from the lights cannot bring; `None` if they are all there is and the camera sees none of them.
 fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut Diagnostics) -> Option<()> {
-    let are_all = match integrator.particles() {
+    let are_all = match integrator.facts().particles {
         Particles::None => return Some(()),
         Particles::Some => false,
         Particles::All => true,

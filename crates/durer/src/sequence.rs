@@ -49,14 +49,7 @@ impl Sequence {
         if diagnostics.has_errors() {
             return None;
         }
-        let lit;
-        let desc = match &options.environment {
-            Some(file) => {
-                lit = environment::surround(desc, file, assets, diagnostics)?;
-                &lit
-            }
-            None => &*desc,
-        };
+        let desc = &*environment::within(desc, options, assets, diagnostics)?;
         let node = integrator_node(desc, options, diagnostics);
         let kept = &mut self.kept;
         prepared(

@@ -167,7 +167,7 @@ impl Take {
             }
             Some(growing) => (job.scene.view.width, job.scene.view.height, self.values(growing)),
         };
-        let (developed, range, white) = match job.integrator.output() {
+        let (developed, range, white) = match job.integrator.facts().output {
             Output::Data(show) => {
                 let data = develop_data(show, width, height, &values);
                 (data.picture, data.depth.map(|d| [d.near, d.far]), data.white_tests)

@@ -10,10 +10,12 @@ const PAUSE = 90;
 
 export function createPointing(session: Session) {
   const hovered = signal<{ pixel: Size; found: Pick | null } | null>(null);
-  let asking = false;
+  let [asking, stale] = [false, false];
 
+  /** Asks now, or as soon as the answer that is awaited came: it may be of an older picture. */
   function ask(): void {
     const at = hovered.peek();
+    stale = asking;
     if (asking || !at) return;
     asking = true;
     const [x, y] = at.pixel;
@@ -24,7 +26,7 @@ export function createPointing(session: Session) {
     const pause = new Promise((done) => setTimeout(done, PAUSE));
     void Promise.all([told, pause]).then(() => {
       asking = false;
-      if (!here()) ask();
+      if (stale || !here()) ask();
     });
   }
 

@@ -23,7 +23,7 @@ impl FullTree {
 
     /// The tree that all of these pixels' first samples have; `None` if they differ, or if something is missing in one.
     pub(super) fn of(prepared: &Prepared, pixels: &[[u32; 2]]) -> Option<Self> {
-        let depth = prepared.integrator.depth_limit()?;
+        let depth = prepared.integrator.facts().depth_limit?;
         let mut trees = pixels.iter().map(|&pixel| Self::recorded(&prepared.job().record(pixel, 0).0, depth));
         let first = trees.next()??;
         trees.all(|tree| tree == Some(first)).then_some(first)

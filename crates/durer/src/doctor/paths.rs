@@ -31,7 +31,7 @@ pub(super) struct Survey {
 impl Survey {
     pub(super) fn take(prepared: &Prepared) -> Self {
         let mut survey = Self { light: Vec::new(), cut: 0, hits: 0, kept: 0, keeping: Vec::new() };
-        if prepared.integrator.output() != Output::Radiance {
+        if prepared.integrator.facts().output != Output::Radiance {
             return survey;
         }
         let job = prepared.job();
@@ -68,7 +68,7 @@ impl Survey {
     /// Paths that end before they find light.
     pub(super) fn ends(&self, prepared: &Prepared) -> Vec<Finding> {
         let mut found = Vec::new();
-        let depth = prepared.integrator.depth_limit();
+        let depth = prepared.integrator.facts().depth_limit;
         if let Some(depth) = depth.filter(|_| self.share(self.cut) > MOST) {
             let share = (100.0 * self.share(self.cut)).round();
             let message =

@@ -75,7 +75,7 @@ fn explained(
     let detailed = representative(samples);
     let total: f64 = samples.iter().filter(|s| s.is_finite()).map(|s| s.weight).sum();
     let (mut ways, mut sources) = (Parts::default(), Parts::default());
-    if matches!(subject.prepared.integrator.output(), crate::Output::Radiance) && total != 0.0 {
+    if matches!(subject.prepared.integrator.facts().output, crate::Output::Radiance) && total != 0.0 {
         for one in samples.iter().filter(|s| s.is_finite()) {
             ways.merge(&part::by_way(subject.prepared, &one.tree), one.weight / total);
             sources.merge(&part::by_source(subject.prepared, &one.tree), one.weight / total);

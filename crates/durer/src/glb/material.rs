@@ -60,9 +60,7 @@ impl Writer<'_> {
         material.insert("name".to_owned(), name.into());
         material.insert("pbrMetallicRoughness".to_owned(), made.pbr.into());
         if !made.extensions.is_empty() {
-            for used in made.extensions.keys() {
-                self.extensions.extend(EXTENSIONS.iter().find(|known| *known == used));
-            }
+            self.extensions.extend(made.extensions.keys().cloned());
             material.insert("extensions".to_owned(), made.extensions.into());
         }
         self.materials.push(material.into());
@@ -293,22 +291,6 @@ fn textured(node: &Node, name: &str) -> Option<String> {
         _ => None,
     }
 }
-
-/// Those that materials use.
-const EXTENSIONS: [&str; 12] = [
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-];
 
 impl Made {
     pub(super) fn pbr(&mut self, key: &str, value: f32) {

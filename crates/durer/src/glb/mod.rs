@@ -49,7 +49,7 @@ struct Writer<'a> {
     lights: Vec<Value>,
     /// Nodes of the world, mirrored or not.
     nodes: Vec<Value>,
-    extensions: BTreeSet<&'static str>,
+    extensions: BTreeSet<String>,
     warnings: Vec<String>,
     /// From the world of the scene to that of the file.
     mirror: DAffine3,
@@ -144,7 +144,7 @@ impl Writer<'_> {
             "scenes": [{ "name": self.desc.name, "nodes": roots }],
         });
         if !self.lights.is_empty() {
-            self.extensions.insert(light::PUNCTUAL);
+            self.extensions.insert(light::PUNCTUAL.to_owned());
             document["extensions"] = json!({ light::PUNCTUAL: { "lights": self.lights } });
         }
         let lists = [

@@ -110,7 +110,7 @@ impl Writer<'_> {
             self.warn(format!("{owner}: a sheared picture stands straight in the file"));
         }
         let offset = [m[2] - sin * sy, 1.0 - cos * sy - m[5]];
-        self.extensions.insert(TRANSFORM);
+        self.extensions.insert(TRANSFORM.to_owned());
         place["extensions"] =
             json!({ TRANSFORM: { "offset": offset, "rotation": angle, "scale": [sx, sy] } });
         place

@@ -117,7 +117,7 @@ impl Subject<'_> {
     pub fn tree_of(&self, pixel: [u32; 2], samples: u32, sample: u32, detail: Detail) -> Tree {
         let (recorded, value) = self.prepared.job().record_in(pixel, sample, detail);
         let (view, settings) = (&self.prepared.scene.view, &self.prepared.settings);
-        let data = match self.prepared.integrator.output() {
+        let data = match self.prepared.integrator.facts().output {
             Output::Data(show) => Some(show.word().to_owned()),
             Output::Radiance | Output::Survey(_) => None,
         };

@@ -36,7 +36,7 @@ impl Thumbnail {
             job.integrator = &cast;
         }
         let (width, height, values) = job.preview(LARGEST);
-        let Developed { width, height, rgb8 } = match job.integrator.output() {
+        let Developed { width, height, rgb8 } = match job.integrator.facts().output {
             Output::Data(show) => develop_data(show, width, height, &values).picture,
             Output::Survey(survey) => develop_survey(survey, width, height, &values).0,
             Output::Radiance => {

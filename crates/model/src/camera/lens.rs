@@ -21,7 +21,7 @@ const FILM_MM: f32 = 24.0;
 const FAR: f32 = 1e6;
 
 const fn optional(name: &'static str, doc: &'static str) -> ParamSpec {
-    ParamSpec::new(name, ParamType::Float, ParamDefault::Unset, doc).range(0.0, f32::INFINITY)
+    ParamSpec::new(name, ParamType::Float, ParamDefault::Unset, doc).above(0.0, f32::INFINITY)
 }
 
 /// What a lens focuses on, in another way.
@@ -57,7 +57,7 @@ pub(super) const LENS: [ParamSpec; 7] = [
         .range(0.0, f32::INFINITY),
     ParamSpec::float("focaldistance", FAR, "Depth of the plane in focus, along the camera's axis.")
         .unit("m")
-        .range(0.0, f32::INFINITY),
+        .above(0.0, f32::INFINITY),
     optional("fnumber", "The radius of the lens in another way: focal length by twice this number."),
     optional(
         "focallength",
@@ -96,11 +96,6 @@ impl Lens {
     /// From the parameters [`LENS`].
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         let fnumber = args.optional_float("fnumber");
-        for name in ["fnumber", "focallength"] {
-            if args.optional_float(name) == Some(0.0) {
-                args.error(name, format!("\"{name}\" is 0, expected more than 0"));
-            }
-        }
         if fnumber.is_some() && args.is_set("lensradius") {
             args.error(
                 "fnumber",
@@ -109,9 +104,6 @@ impl Lens {
         }
         let focus_pixel = focus_pixel(args, "focaldistance");
         let focus = args.float("focaldistance");
-        if focus == 0.0 {
-            args.error("focaldistance", "\"focaldistance\" is 0, expected more than 0");
-        }
         let blades = args.int("blades");
         if blades == 1 || blades == 2 {
             args.error(

@@ -33,7 +33,7 @@ pub(super) const ASPECT: ParamSpec = ParamSpec::new(
     ParamDefault::Unset,
     "Width by height of the default window; default: that of the picture.",
 )
-.range(0.0, f32::INFINITY);
+.above(0.0, f32::INFINITY);
 
 impl Screen {
     /// From the two parameters above.
@@ -55,9 +55,6 @@ impl Screen {
             }
         };
         let aspect = args.optional_float("frameaspectratio");
-        if aspect == Some(0.0) {
-            args.error("frameaspectratio", "\"frameaspectratio\" is 0, expected more than 0");
-        }
         let mut screen = Self { fixed, aspect, unit_axis, window: [0.0; 4] };
         screen.fit(1, 1);
         screen

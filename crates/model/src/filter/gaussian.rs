@@ -3,7 +3,7 @@
 use durer_core::math::float::exp;
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Filter, Profile, above_zero, radii, x_radius, y_radius};
+use super::{Filter, Profile, radii, x_radius, y_radius};
 
 /// The word `gaussian`.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +40,13 @@ impl Kind for Gaussian {
         params: &[
             x_radius(1.5),
             y_radius(1.5),
-            ParamSpec::float("sigma", 0.5, "Standard deviation of the bell curve; above 0.")
+            ParamSpec::float("sigma", 0.5, "Standard deviation of the bell curve.")
                 .unit("px")
-                .range(0.0, 32.0),
+                .above(0.0, 32.0),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Filter> {
-        let (radius, sigma) = (radii(args), above_zero(args, "sigma"));
+        let (radius, sigma) = (radii(args), args.float("sigma"));
         args.is_sound().then(|| Self::filter(radius, sigma))
     }
 }

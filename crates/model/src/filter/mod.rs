@@ -92,25 +92,16 @@ pub const FILTERS: &[Entry<Filter>] = &[
 ];
 
 const fn x_radius(default: f32) -> ParamSpec {
-    ParamSpec::float("xradius", default, "How far the filter reaches from the pixel's middle in x; above 0.")
+    ParamSpec::float("xradius", default, "How far the filter reaches from the pixel's middle in x.")
         .unit("px")
-        .range(0.0, 32.0)
+        .above(0.0, 32.0)
 }
 
 const fn y_radius(default: f32) -> ParamSpec {
-    ParamSpec::float("yradius", default, "The same in y.").unit("px").range(0.0, 32.0)
+    ParamSpec::float("yradius", default, "The same in y.").unit("px").above(0.0, 32.0)
 }
 
-/// The two radii; complains if one is 0.
+/// The two radii.
 fn radii(args: &mut Args<'_>) -> [f32; 2] {
-    ["xradius", "yradius"].map(|name| above_zero(args, name))
-}
-
-/// A number; complains if it is 0.
-fn above_zero(args: &mut Args<'_>, name: &str) -> f32 {
-    let value = args.float(name);
-    if value == 0.0 {
-        args.error(name, format!("\"{name}\" is 0, expected more than 0"));
-    }
-    value
+    ["xradius", "yradius"].map(|name| args.float(name))
 }

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use durer_core::math::float::sin;
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{Filter, Profile, above_zero, radii, x_radius, y_radius};
+use super::{Filter, Profile, radii, x_radius, y_radius};
 
 /// The word `sinc`.
 #[derive(Clone, Copy, Debug)]
@@ -33,11 +33,11 @@ impl Kind for Sinc {
         params: &[
             x_radius(4.0),
             y_radius(4.0),
-            ParamSpec::float("tau", 3.0, "Where the window ends; above 0.").unit("px").range(0.0, 32.0),
+            ParamSpec::float("tau", 3.0, "Where the window ends.").unit("px").above(0.0, 32.0),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Filter> {
-        let (tau, radius) = (above_zero(args, "tau"), radii(args));
+        let (tau, radius) = (args.float("tau"), radii(args));
         args.is_sound().then(|| Filter::new(Self { tau }, Self { tau }, radius))
     }
 }

@@ -9,7 +9,9 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, arc_angle, azimuth, chord::Chord};
+use super::{
+    ALPHA, AreaPoint, Geometry, Outline, PHI_MAX, RADIUS, Shape, ShapeHit, arc_angle, azimuth, chord::Chord,
+};
 use crate::{Surface, texture::Footprint};
 
 /// The part of a cylinder with `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The outside is away from the axis.
@@ -114,26 +116,15 @@ impl Kind for Cylinder {
         aliases: &[],
         doc: "A cylinder about the z axis, open at both ends; with a smaller angle a part of one.",
         params: &[
-            ParamSpec::float("radius", 1.0, "Radius; more than 0.").unit("m").range(0.0, f32::INFINITY),
+            RADIUS,
             ParamSpec::float("zmin", -1.0, "Lowest z.").unit("m"),
             ParamSpec::float("zmax", 1.0, "Highest z.").unit("m"),
-            ParamSpec::float(
-                "phimax",
-                360.0,
-                "Angle kept about the z axis, from the x axis towards y; more than 0.",
-            )
-            .unit("deg")
-            .range(0.0, 360.0),
+            PHI_MAX,
             ALPHA,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         let (radius, phi_max) = (args.float("radius"), args.float("phimax"));
-        for (name, value) in [("radius", radius), ("phimax", phi_max)] {
-            if value == 0.0 {
-                args.error(name, format!("\"{name}\" is 0, expected more than 0"));
-            }
-        }
         let (z_min, z_max) = (args.float("zmin"), args.float("zmax"));
         if args.is_sound() && z_min == z_max {
             args.error("zmin", format!("zmin and zmax are both {z_min}: nothing lies between them"));

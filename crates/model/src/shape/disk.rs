@@ -10,7 +10,9 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier};
+use super::{
+    ALPHA, AreaPoint, Geometry, Outline, PHI_MAX, Shape, ShapeHit, arc_angle, azimuth, plane::Carrier,
+};
 use crate::Surface;
 
 /// A disk at `z = height`; the outside is towards +z. `u = phi / phi_max`, `v` is 0 at the rim and 1 at the inner
@@ -107,13 +109,7 @@ impl Kind for Disk {
                 .unit("m")
                 .range(0.0, f32::INFINITY),
             ParamSpec::float("innerradius", 0.0, "Radius of the hole.").unit("m").range(0.0, f32::INFINITY),
-            ParamSpec::float(
-                "phimax",
-                360.0,
-                "Angle kept about the z axis, from the x axis towards y; more than 0.",
-            )
-            .unit("deg")
-            .range(0.0, 360.0),
+            PHI_MAX,
             ALPHA,
         ],
     };
@@ -125,9 +121,6 @@ impl Kind for Disk {
                 "radius",
                 format!("\"radius\" is {radius}, expected more than innerradius {inner_radius}"),
             );
-        }
-        if phi_max == 0.0 {
-            args.error("phimax", "\"phimax\" is 0, expected more than 0");
         }
         args.is_sound().then(|| Geometry::shape(Self::new(height, radius, inner_radius, phi_max)))
     }

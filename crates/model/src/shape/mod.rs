@@ -136,6 +136,13 @@ pub const SHAPES: &[Entry<Geometry>] = &[
 ];
 
 /// What every shape of pbrt takes; importers make its material a mask.
+const RADIUS: ParamSpec = ParamSpec::float("radius", 1.0, "Radius.").unit("m").above(0.0, f32::INFINITY);
+
+const PHI_MAX: ParamSpec =
+    ParamSpec::float("phimax", 360.0, "Angle kept about the z axis, from the x axis towards y.")
+        .unit("deg")
+        .above(0.0, 360.0);
+
 const ALPHA: ParamSpec = ParamSpec::new(
     "alpha",
     ParamType::FloatTexture,

@@ -169,9 +169,9 @@ impl Kind for Plane {
                 ParamDefault::Triple([0.0, 1.0, 0.0]),
                 "Direction of the outside; any length but 0.",
             ),
-            ParamSpec::float("uvscale", 1.0, "Texture coordinates per metre; more than 0.")
+            ParamSpec::float("uvscale", 1.0, "Texture coordinates per metre.")
                 .unit("1/m")
-                .range(0.0, f32::INFINITY),
+                .above(0.0, f32::INFINITY),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
@@ -179,9 +179,6 @@ impl Kind for Plane {
         let uv_scale = args.float("uvscale");
         if normal == Vector3::ZERO {
             args.error("normal", "\"normal\" is the zero vector, which has no direction");
-        }
-        if uv_scale == 0.0 {
-            args.error("uvscale", "\"uvscale\" is 0, expected more than 0");
         }
         args.is_sound().then(|| Geometry::shape(Self::new(point, normal, uv_scale)))
     }

@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{ALPHA, AreaPoint, Geometry, Outline, Shape, ShapeHit, arc_angle, chord::Chord};
+use super::{ALPHA, AreaPoint, Geometry, Outline, PHI_MAX, RADIUS, Shape, ShapeHit, arc_angle, chord::Chord};
 use crate::{Surface, texture::Footprint};
 
 /// A sphere of radius `r` around the origin, kept where `z_min <= z <= z_max` and `0 <= phi <= phi_max`. The poles lie
@@ -146,28 +146,17 @@ impl Kind for Sphere {
         aliases: &[],
         doc: "A sphere around the origin, whole or cut by two heights and an angle. Its poles lie on the z axis.",
         params: &[
-            ParamSpec::float("radius", 1.0, "Radius; more than 0.").unit("m").range(0.0, f32::INFINITY),
+            RADIUS,
             ParamSpec::new("zmin", ParamType::Float, ParamDefault::Unset, "Lowest z kept; default -radius.")
                 .unit("m"),
             ParamSpec::new("zmax", ParamType::Float, ParamDefault::Unset, "Highest z kept; default radius.")
                 .unit("m"),
-            ParamSpec::float(
-                "phimax",
-                360.0,
-                "Angle kept about the z axis, from the x axis towards y; more than 0.",
-            )
-            .unit("deg")
-            .range(0.0, 360.0),
+            PHI_MAX,
             ALPHA,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         let (radius, phi_max) = (args.float("radius"), args.float("phimax"));
-        for (name, value) in [("radius", radius), ("phimax", phi_max)] {
-            if value == 0.0 {
-                args.error(name, format!("\"{name}\" is 0, expected more than 0"));
-            }
-        }
         let z_min = args.optional_float("zmin").unwrap_or(-radius);
         let z_max = args.optional_float("zmax").unwrap_or(radius);
         if args.is_sound() && z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {

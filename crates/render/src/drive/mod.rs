@@ -162,13 +162,13 @@ impl<'a> Job<'a> {
 
     /// Whether the camera lets no light through along a ray: there is nothing to trace then.
     fn is_blocked(&self, eye: &Eye) -> bool {
-        eye.gain == 0.0 && self.integrator.output() == Output::Radiance
+        eye.gain == 0.0 && self.integrator.facts().output == Output::Radiance
     }
 
     /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
     /// wavelengths are no colour that could be compared.
     fn adaptive(&self) -> Option<Adaptive> {
-        match (self.settings.antialias, self.integrator.output()) {
+        match (self.settings.antialias, self.integrator.facts().output) {
             _ if self.settings.carried == Carried::Wavelengths => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,

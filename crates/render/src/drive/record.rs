@@ -106,7 +106,7 @@ impl Job<'_> {
         }
         let cx = SampleCx { scene: self.scene, basis: tree.basis };
         let mut recorder = Recorder::new(&cx, Detail::default());
-        if self.integrator.particles() != Particles::None {
+        if self.integrator.facts().particles != Particles::None {
             // What a ray brings depends on all of the two walks.
             let mut out = Contribution::default();
             self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);

@@ -157,7 +157,7 @@ impl Job<'_> {
             found.extend(self.value_of(&eye, &mut out));
         }
         let n = found.len() as f32;
-        match self.integrator.output() {
+        match self.integrator.facts().output {
             Output::Radiance => {
                 (n > 0.0).then(|| std::array::from_fn(|i| found.iter().map(|v| v[i]).sum::<f32>() / n))
             }

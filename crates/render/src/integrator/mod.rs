@@ -67,6 +67,19 @@ pub enum Particles {
     All,
 }
 
+/// What is known of an integrator before it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facts {
+    /// What the samples mean.
+    pub output: Output,
+    /// [`Transport::depth_limit`].
+    pub depth_limit: Option<u32>,
+    /// [`Transport::bounded`].
+    pub bounded: Option<GlossRays>,
+    /// [`Transport::particles`].
+    pub particles: Particles,
+}
+
 /// What is traced.
 #[derive(Clone, Copy, Debug)]
 #[allow(clippy::large_enum_variant, reason = "made once for each sample, and never kept")]
@@ -112,16 +125,10 @@ pub trait Transport: Send + Sync {
 
 /// Light transport as the driver holds it; nobody implements it by hand, but for [`Surveyed`].
 pub trait Integrator: Send + Sync {
-    /// What the samples mean.
-    fn output(&self) -> Output;
+    /// What is known of it before it runs.
+    fn facts(&self) -> Facts;
     /// [`Transport::eye_samples`].
     fn eye_samples(&self, asked: u32) -> EyeSamples;
-    /// [`Transport::depth_limit`].
-    fn depth_limit(&self) -> Option<u32>;
-    /// [`Transport::bounded`].
-    fn bounded(&self) -> Option<GlossRays>;
-    /// [`Transport::particles`].
-    fn particles(&self) -> Particles;
     /// [`Transport::trace`] of an eye ray, unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::trace`] of an eye ray, recorded.
@@ -133,20 +140,16 @@ pub trait Integrator: Send + Sync {
 }
 
 impl<T: Transport> Integrator for T {
-    fn output(&self) -> Output {
-        Transport::output(self)
+    fn facts(&self) -> Facts {
+        Facts {
+            output: self.output(),
+            depth_limit: self.depth_limit(),
+            bounded: self.bounded(),
+            particles: self.particles(),
+        }
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         Transport::eye_samples(self, asked)
-    }
-    fn depth_limit(&self) -> Option<u32> {
-        Transport::depth_limit(self)
-    }
-    fn bounded(&self) -> Option<GlossRays> {
-        Transport::bounded(self)
-    }
-    fn particles(&self) -> Particles {
-        Transport::particles(self)
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.trace(cx, Start::Eye(ray), (), &mut NoProbe, out);

@@ -3,9 +3,8 @@
 //! A sample's value becomes (rays, Y, Y²) with Y its luminance. The film's means of these give the rays of a sample and,
 //! as E[Y²] - E[Y]², the variance of one.
 use durer_core::spectrum::luminance;
-use durer_model::material::GlossRays;
 
-use super::{EyeSamples, Integrator, Output, Particles};
+use super::{EyeSamples, Facts, Integrator, Output};
 use crate::{
     Contribution, PathRay, SampleCx, Value,
     probe::{Counters, Recorder, TreeNode},
@@ -62,20 +61,11 @@ impl Surveyed {
 }
 
 impl Integrator for Surveyed {
-    fn output(&self) -> Output {
-        Output::Survey(self.survey)
+    fn facts(&self) -> Facts {
+        Facts { output: Output::Survey(self.survey), ..self.integrator.facts() }
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         self.integrator.eye_samples(asked)
-    }
-    fn depth_limit(&self) -> Option<u32> {
-        self.integrator.depth_limit()
-    }
-    fn bounded(&self) -> Option<GlossRays> {
-        self.integrator.bounded()
-    }
-    fn particles(&self) -> Particles {
-        self.integrator.particles()
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.integrator.sample(cx, ray, out);

@@ -139,17 +139,15 @@ impl<'a> Args<'a> {
             Data::Floats(values) => {
                 // Of an index given as a spectrum, the one value that is taken from it is checked.
                 let spectrum = param.ty == ValueType::Spectrum && spec.ty == ParamType::Index;
-                let (min, max) = spec.range;
-                let wrong = |v: &&f32| !(**v >= min && **v <= max && v.is_finite());
+                let wrong = |v: &&f32| !(spec.allows(**v) && v.is_finite());
                 if let Some(v) = values.iter().find(wrong).filter(|_| !spectrum) {
-                    let message = format!("\"{name}\" is {v}, expected {}", range_text(spec));
+                    let message = format!("\"{name}\" is {v}, expected {}", spec.expected());
                     self.error_at(param.at.clone(), message);
                 }
             }
             Data::Ints(values) => {
-                let (min, max) = spec.range;
-                if let Some(v) = values.iter().find(|v| (**v as f32) < min || **v as f32 > max) {
-                    let message = format!("\"{name}\" is {v}, expected {}", range_text(spec));
+                if let Some(v) = values.iter().find(|v| !spec.allows(**v as f32)) {
+                    let message = format!("\"{name}\" is {v}, expected {}", spec.expected());
                     self.error_at(param.at.clone(), message);
                 }
             }
@@ -379,15 +377,5 @@ impl<'a> Args<'a> {
             self.diagnostics.unknown(param.at.clone(), what, name, names);
         }
         found.map(|i| i as u32)
-    }
-}
-
-pub(super) fn range_text(spec: &ParamSpec) -> String {
-    let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
-    match spec.range {
-        (min, max) if min.is_finite() && max.is_finite() => format!("{min} to {max}{unit}"),
-        (min, _) if min.is_finite() => format!("{min}{unit} or more"),
-        (_, max) if max.is_finite() => format!("{max}{unit} or less"),
-        _ => format!("a finite number{unit}"),
     }
 }

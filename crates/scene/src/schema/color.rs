@@ -5,7 +5,7 @@ use durer_core::spectrum::{
     spectrum_names,
 };
 
-use super::{Args, ParamDefault, args::range_text};
+use super::{Args, ParamDefault};
 use crate::{AssetError, Data, Location, TextureValue, ValueType, nearest_word};
 
 /// A colour, or the index of the colour texture that gives it.
@@ -142,10 +142,9 @@ impl Args<'_> {
             None => return (1.0, None),
         };
         if let Some(spec) = self.spec(name) {
-            let (least, most) = spec.range;
             let at =
-                |nm: &str, value: f32| format!("\"{name}\" is {value} {nm}, expected {}", range_text(spec));
-            let is_outside = |value: f32| !(value >= least && value <= most);
+                |nm: &str, value: f32| format!("\"{name}\" is {value} {nm}, expected {}", spec.expected());
+            let is_outside = |value: f32| !spec.allows(value);
             if is_outside(value) {
                 self.error(name, at("at 587.6 nm", value));
             } else if let Some(value) = curve.iter().flat_map(Curve::ends).find(|v| is_outside(*v)) {

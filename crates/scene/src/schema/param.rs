@@ -112,8 +112,10 @@ pub struct ParamSpec {
     pub default: ParamDefault,
     /// Unit of numbers; empty for pure numbers.
     pub unit: &'static str,
-    /// Closed range each number must lie in.
+    /// The range each number must lie in, its ends included but for `open`.
     pub range: (f32, f32),
+    /// Whether the lower end of the range is itself forbidden.
+    pub open: bool,
     /// What it does.
     pub doc: &'static str,
 }
@@ -121,7 +123,7 @@ pub struct ParamSpec {
 impl ParamSpec {
     /// A parameter without unit and range.
     pub const fn new(name: &'static str, ty: ParamType, default: ParamDefault, doc: &'static str) -> Self {
-        Self { name, ty, default, unit: "", range: (f32::NEG_INFINITY, f32::INFINITY), doc }
+        Self { name, ty, default, unit: "", range: (f32::NEG_INFINITY, f32::INFINITY), open: false, doc }
     }
     /// A number.
     pub const fn float(name: &'static str, default: f32, doc: &'static str) -> Self {
@@ -154,5 +156,28 @@ impl ParamSpec {
     pub const fn range(mut self, min: f32, max: f32) -> Self {
         self.range = (min, max);
         self
+    }
+    /// With a range that its lower end is not part of.
+    #[must_use]
+    pub const fn above(mut self, min: f32, max: f32) -> Self {
+        self.open = true;
+        self.range(min, max)
+    }
+    /// Whether a number lies in the range.
+    pub fn allows(&self, value: f32) -> bool {
+        let (min, max) = self.range;
+        value >= min && value <= max && !(self.open && value == min)
+    }
+    /// The range in words.
+    pub fn expected(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        match self.range {
+            (min, max) if self.open && max.is_finite() => format!("more than {min}, {max}{unit} at most"),
+            (min, _) if self.open => format!("more than {min}{unit}"),
+            (min, max) if min.is_finite() && max.is_finite() => format!("{min} to {max}{unit}"),
+            (min, _) if min.is_finite() => format!("{min}{unit} or more"),
+            (_, max) if max.is_finite() => format!("{max}{unit} or less"),
+            _ => format!("a finite number{unit}"),
+        }
     }
 }

@@ -66,11 +66,10 @@ impl Complaint {
             }
             durer::scene::Data::Bools(_) => return Ok(()),
         };
-        let (min, max) = spec.range;
-        match numbers.into_iter().find(|v| *v < min || *v > max) {
+        match numbers.into_iter().find(|v| !spec.allows(*v)) {
             None => Ok(()),
             Some(v) => {
-                let message = format!("\"{}\" is {v}, expected {min} to {max}", spec.name);
+                let message = format!("\"{}\" is {v}, expected {}", spec.name, spec.expected());
                 Err(Self::of(about, Some(spec.name), message))
             }
         }

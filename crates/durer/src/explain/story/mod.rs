@@ -46,7 +46,7 @@ pub(super) fn tell(
 ) -> Vec<Paragraph> {
     let prepared = subject.prepared;
     let mut paragraphs = vec![pixel::summary(prepared, samples, detailed, explanation)];
-    if let crate::Output::Data(show) = prepared.integrator.output() {
+    if let crate::Output::Data(show) = prepared.integrator.facts().output {
         paragraphs.push(data::shown(prepared, show, detailed));
     } else {
         paragraphs.extend(pixel::samples(prepared, samples, explanation));

@@ -52,7 +52,7 @@ pub(super) fn summary(
     if !detailed.is_finite() && bad == 0 {
         sentences.push("The film leaves such a sample out.".to_owned());
     }
-    if matches!(prepared.integrator.output(), crate::Output::Radiance) && detailed.is_finite() {
+    if matches!(prepared.integrator.facts().output, crate::Output::Radiance) && detailed.is_finite() {
         sentences.push(parts(explanation));
     }
     Paragraph { about: "pixel", node: None, is_detail: false, sentences }

@@ -18,12 +18,12 @@ pub(super) const FILM: Schema = Schema {
         ParamSpec::new("filename", ParamType::File, ParamDefault::Text("pbrt.exr"), "shown by info"),
         ParamSpec::float("diagonal", 35.0, "film size, used by the realistic camera")
             .unit("mm")
-            .range(0.0, 1e6),
+            .above(0.0, 1e6),
         ParamSpec::new("savefp16", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
         ParamSpec::new("cropwindow", ParamType::Floats, ParamDefault::Unset, "not supported yet"),
         ParamSpec::new("pixelbounds", ParamType::Ints, ParamDefault::Unset, "not supported yet"),
         ParamSpec::new("sensor", ParamType::Text, ParamDefault::Text("cie1931"), "only the default"),
-        ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").range(0.0, f32::INFINITY),
+        ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").above(0.0, f32::INFINITY),
         ParamSpec::float("exposuretime", 1.0, "only the default"),
         ParamSpec::float("whitebalance", 0.0, "only the default").unit("K"),
         ParamSpec::float("scale", 1.0, "only the default"),
@@ -99,15 +99,12 @@ pub(super) fn film(
             FILM.aliases.iter().copied().chain([FILM.name]),
         );
     }
-    let mut args = Args::check(node, FILM, &[], diagnostics);
+    let args = Args::check(node, FILM, &[], diagnostics);
     film.spectral = node.kind == "spectral";
     film.width = u32::try_from(args.int("xresolution")).ok();
     film.height = u32::try_from(args.int("yresolution")).ok();
     for (name, into) in [("diagonal", &mut film.diagonal_mm), ("iso", &mut film.iso)] {
         *into = args.is_set(name).then(|| args.float(name));
-        if *into == Some(0.0) {
-            args.error(name, format!("\"{name}\" is 0, expected more than 0"));
-        }
     }
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
     let crop = args.floats("cropwindow");

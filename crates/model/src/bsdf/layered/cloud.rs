@@ -3,18 +3,13 @@
 //! As in the volume below a surface (Guo, Hasan and Zhao 2018; pbrt-v4's model): flights end after an exponential way of one
 //! mean free path, the share `albedo` goes on by the phase function of Henyey and Greenstein 1941,
 //! `p = (1 - g²) / (4 pi (1 + g² - 2 g cos)^(3/2))` for the cosine of the deflection.
-use std::f32::consts::PI;
-
 use durer_core::{
-    math::{
-        Frame, Normal3, Point2, Vector3,
-        float::{cos, ln, sin, sqr},
-    },
+    math::{Vector3, float::ln},
     spectrum::Spectrum,
 };
 
 use super::{Dice, Layered, square_share};
-use crate::bsdf::coat::faded;
+use crate::{bsdf::coat::faded, medium::HenyeyGreenstein};
 
 /// What is in a coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,23 +33,8 @@ impl Cloud {
     pub(super) fn scatters(&self) -> bool {
         !self.albedo.is_black()
     }
-    /// Density of going on with this cosine of the deflection, 1/sr.
-    fn phase(&self, cos: f32) -> f32 {
-        let root = (1.0 + sqr(self.g) - 2.0 * self.g * cos).max(1e-12);
-        (1.0 - sqr(self.g)) / (4.0 * PI * root * root.sqrt())
-    }
-    /// A direction after `w`, at a point of the unit square.
-    fn deflected(&self, w: Vector3, u: Point2) -> Vector3 {
-        let cosine = if self.g.abs() < 1e-3 {
-            1.0 - 2.0 * u.x
-        } else {
-            let part = (1.0 - sqr(self.g)) / (1.0 - self.g + 2.0 * self.g * u.x);
-            ((1.0 + sqr(self.g) - sqr(part)) / (2.0 * self.g)).clamp(-1.0, 1.0)
-        };
-        let sine = (1.0 - sqr(cosine)).max(0.0).sqrt();
-        let azimuth = 2.0 * PI * u.y;
-        let local = Vector3::new(sine * cos(azimuth), sine * sin(azimuth), cosine);
-        Frame::from_z(Normal3::from(w)).to_world(local).normalize()
+    fn phase(&self) -> HenyeyGreenstein {
+        HenyeyGreenstein::new(self.g)
     }
 }
 
@@ -120,7 +100,7 @@ impl Layered {
         flight.beta *= self.cloud.albedo;
         let mut sum = Spectrum::BLACK;
         if let Some((out, share)) = exit {
-            let phase = self.cloud.phase(flight.w.dot(-out));
+            let phase = self.cloud.phase().density(flight.w.dot(-out));
             let kept = match self.coat.is_smooth() {
                 true => 1.0,
                 false => square_share(self.entering(i, out).1, phase),
@@ -129,8 +109,8 @@ impl Layered {
             sum += flight.beta * (phase * passed);
         }
         let before = flight.w;
-        flight.w = self.cloud.deflected(before, dice.point());
-        sum + self.leaves(flight, i, Some(self.cloud.phase(before.dot(flight.w))))
+        flight.w = self.cloud.phase().deflected(before, dice.point());
+        sum + self.leaves(flight, i, Some(self.cloud.phase().density(before.dot(flight.w))))
     }
 
     /// Is reflected by the body; false if that keeps all.

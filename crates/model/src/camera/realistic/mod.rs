@@ -168,14 +168,14 @@ impl Kind for Realistic {
             LENS_FILE,
             ParamSpec::float("aperturediameter", DIAMETER_MM, "Of the stop; at most that of the file.")
                 .unit("mm")
-                .range(0.0, f32::INFINITY),
+                .above(0.0, f32::INFINITY),
             ParamSpec::new(
                 "fnumber",
                 ParamType::Float,
                 ParamDefault::Unset,
                 "The diameter of the stop in another way: focal length by that of the entrance pupil.",
             )
-            .range(0.0, f32::INFINITY),
+            .above(0.0, f32::INFINITY),
             ParamSpec::float("focusdistance", 10.0, "From the film to what is in focus.")
                 .unit("m")
                 .range(0.0, f32::INFINITY),
@@ -263,7 +263,7 @@ fn set_stop(args: &mut Args<'_>, surfaces: &mut [Interface], paraxial: &Paraxial
         None => f64::from(args.float("aperturediameter")) * 0.5e-3,
     };
     if !(radius > 0.0 && radius.is_finite()) {
-        args.error(word, format!("\"{word}\" is 0, expected more than 0"));
+        args.error(word, format!("\"{word}\" gives the stop a radius of {radius} m"));
     }
     let Some(stop) = surfaces.iter_mut().find(|s| s.is_stop()) else {
         if args.is_set(word) {
