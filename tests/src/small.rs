@@ -12,7 +12,7 @@ pub const THINGS: &str = "Material \"diffuse\" \"rgb reflectance\" [0.7 0.6 0.5]
     Shape \"bilinearmesh\" \"point3 P\" [-2 0 -2  -2 0 2  2 0 -2  2 0 2]\n\
     Material \"diffuse\" \"rgb reflectance\" [0.2 0.5 0.8]\n\
     AttributeBegin Translate -0.6 0.5 0 Shape \"sphere\" \"float radius\" 0.5 AttributeEnd\n\
-    Material \"conductor\" \"float roughness\" 0.3\n\
+    Material \"conductor\" \"float roughness\" 0.4\n\
     AttributeBegin Translate 0.7 0.4 0.3 Shape \"sphere\" \"float radius\" 0.4 AttributeEnd\n";
 /// A disk above the floor.
 pub const LAMP: &str = "AttributeBegin Translate 0.5 2.6 -0.5 Rotate 90 1 0 0\nMaterial \"diffuse\"\n\
