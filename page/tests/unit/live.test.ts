@@ -1,4 +1,5 @@
 // The live page without a browser: its camera, the film on the screen, fields, frames and the connection.
+import { signal } from "@preact/signals";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { cross, distance, dot, length, plus, scaled, sub, unit } from "../../src/data/vector";
@@ -6,7 +7,9 @@ import type { Vec3 } from "../../src/data/types";
 import { dolly, fly, look, orbit, pan, rightOf, trueUp, type Pose, type World } from "../../src/live/camera";
 import { counts, hexOf, numberOf, rgbOf, sliderOf, stepOf, told } from "../../src/live/fields";
 import { backOff, Link, Refused, type Socket } from "../../src/live/link";
+import { createPointing } from "../../src/live/pointing";
 import { readFrame, readMessage, type FromServer, type Param } from "../../src/live/protocol";
+import type { Picture, Session } from "../../src/live/session";
 import { fitting, onFilm, pixelAt, placed, shifted, zoomed, type Size } from "../../src/live/zoom";
 
 const near = (a: Vec3, b: Vec3, within = 1e-9): void => expect(distance(a, b), `${a} is not ${b}`).toBeLessThan(within);
@@ -180,6 +183,46 @@ describe("messages", () => {
     expect(readFrame(bytes(99, "{}", []))).toBeNull();
     expect(readFrame(bytes(2, "{]", []))).toBeNull();
     for (const text of ["", "{", "null", "[]", "{}", '{"type":3}']) expect(readMessage(text), text).toBeNull();
+  });
+});
+
+describe("what is under the mouse", () => {
+  beforeEach(() => void vi.useFakeTimers());
+  afterEach(() => void vi.useRealTimers());
+
+  /** A page whose questions are answered by hand, one after the other. */
+  function page(): { picture: { value: Picture | null }; answers: ((rgb: Vec3 | null) => Promise<unknown>)[]; pointing: ReturnType<typeof createPointing> } {
+    const answers: ((rgb: Vec3 | null) => Promise<unknown>)[] = [];
+    const ask = (): Promise<unknown> => new Promise((done) => answers.push((rgb) => {
+      done({ rgb });
+      return vi.advanceTimersByTimeAsync(200);
+    }));
+    const picture = signal<Picture | null>(null);
+    return { picture, answers, pointing: createPointing({ picture, link: { ask } } as unknown as Session) };
+  }
+
+  it("is asked again if the picture changed before the answer came, though the mouse is still", async () => {
+    const { picture, answers, pointing } = page();
+    pointing.point([3, 4]);
+    picture.value = {} as Picture;
+    expect(answers.length).toBe(1);
+    await answers[0]!(null);
+    expect(answers.length).toBe(2);
+    await answers[1]!([1, 2, 3]);
+    expect(pointing.hovered.value).toEqual({ pixel: [3, 4], found: { rgb: [1, 2, 3] } });
+    expect(answers.length, "nothing changed since").toBe(2);
+  });
+
+  it("is asked of the last pixel only when the mouse moves on", async () => {
+    const { answers, pointing } = page();
+    pointing.point([1, 1]);
+    pointing.point([2, 2]);
+    pointing.point([3, 3]);
+    await answers[0]!([0, 0, 0]);
+    expect(pointing.hovered.value).toEqual({ pixel: [3, 3], found: null });
+    await answers[1]!([1, 1, 1]);
+    expect(pointing.hovered.value?.found).toEqual({ rgb: [1, 1, 1] });
+    expect(answers.length).toBe(2);
   });
 });
 
