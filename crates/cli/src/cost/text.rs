@@ -34,8 +34,12 @@ fn head(text: &mut String, bill: &Bill<'_>) {
     let _ = match bill.predicted.method {
         Method::Parameters(tree) => writeln!(
             text,
-            "predicted from parameters alone: all trees are full, {} at each hit, {} bounces, {} to lights",
-            counted(tree.branches.into(), "branch", "branches"),
+            "predicted from parameters alone: all trees are full, {} at each hit{}, {} bounces, {} to lights",
+            counted((tree.branches + tree.escapes).into(), "branch", "branches"),
+            match tree.escapes {
+                0 => String::new(),
+                escapes => format!(" ({escapes} of them out of the scene)"),
+            },
             tree.depth,
             counted(tree.shadow_rays.into(), "ray", "rays"),
         ),

@@ -61,7 +61,7 @@ pub fn predict(prepared: &Prepared, cancel: &AtomicBool) -> Option<Predicted> {
         supersamples: f64::from(prepared.settings.samples) / (probed.temporal * probed.focal),
         tree: tree.rays(),
         gloss: 1.0,
-        shadow: 1.0 + f64::from(tree.shadow_rays),
+        shadow: 1.0 + tree.rays_to_lights() / tree.rays(),
         primitives: primitives as f64,
         ..probed
     };
