@@ -46,7 +46,7 @@ fn slices_of_a_skinned_and_of_a_morphed_mesh_add_up_to_the_blurred_picture_f8() 
             let show = Some(Show::Albedo);
             values(&taken(
                 &file,
-                &Options { shutter: Some(shutter), samples: Some(samples), seed, show, ..base },
+                &Options { shutter: Some(shutter), samples: Some(samples), seed: Some(seed), show, ..base },
             ))
         };
         let sliced = |from: f32, length: f32| {

@@ -58,7 +58,7 @@ fn a_crop_is_a_part_of_the_whole_picture() {
 #[test]
 fn another_seed_is_another_picture() {
     let a = bits(&render(&whitted(&options())));
-    let b = bits(&render(&whitted(&Options { seed: 1, ..options() })));
+    let b = bits(&render(&whitted(&Options { seed: Some(1), ..options() })));
     assert!(a != b);
 }
 
@@ -105,6 +105,6 @@ fn distributed_rays_depend_on_neither_threads_nor_hierarchy_nor_who_counts() {
         let counted = counted.job().render(Gather::Counters, &(), &Default::default());
         assert!(bits(&counted) == one);
         assert_eq!(counted.counters.map(|c| c.all_rays()), Some(counted.rays));
-        assert!(one != taken(Options { seed: 1, ..Options::default() }));
+        assert!(one != taken(Options { seed: Some(1), ..Options::default() }));
     }
 }

@@ -205,7 +205,7 @@ fn estimate(distribution: Distribution, samples: u32, min_contribution: f32) -> 
     let mut sums = vec![(0.0, 0.0); 96];
     for seed in 0..seeds {
         let options = Options {
-            seed: seed.into(),
+            seed: Some(seed.into()),
             max_depth: Some(3),
             min_contribution: Some(min_contribution),
             ..distributed(samples, distribution)

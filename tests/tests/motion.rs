@@ -86,7 +86,7 @@ fn sliced(text: &str, n: u32, interval: Interval) -> Vec<f64> {
             time,
             shutter: Some(Interval::point(0.0)),
             samples: Some(6),
-            seed: i.into(),
+            seed: Some(i.into()),
             ..Options::default()
         };
         let slice = values(&render(&scene(text, &cast(options))));

@@ -106,7 +106,7 @@ fn ours(
         height: Some(rows),
         samples: Some(samples),
         carried: Some(carried),
-        seed,
+        seed: Some(seed),
         ..Options::default()
     };
     let prepared = prepare(&mut imported, &options).unwrap_or_else(|| panic!("{:#?}", imported.diagnostics));

@@ -221,7 +221,7 @@ impl SampleOptions {
             crop,
             engine: accel.engine,
             preset: accel.preset,
-            seed: seed.unwrap_or(0),
+            seed,
             distribution: self.distribution.wishes(),
             ..self.scene.wishes()
         }

@@ -81,8 +81,8 @@ pub struct Options {
     pub engine: Engine,
     /// How much work goes into the hierarchy. It changes no bit of the picture.
     pub preset: Preset,
-    /// Changes every random number.
-    pub seed: u64,
+    /// Changes every random number; what the scene says, else 0, if `None`.
+    pub seed: Option<u64>,
     /// Worker threads; all cores if `None`.
     pub threads: Option<usize>,
     /// What becomes of missing images.

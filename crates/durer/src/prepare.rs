@@ -126,9 +126,9 @@ pub(crate) fn prepared(
         samples: eye.total,
         sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
         nesting: Nesting { time: eye.time, lens: eye.lens },
-        seed: options.seed,
+        seed: options.seed.or(desc.film.seed).unwrap_or(0),
         threads: options.threads.unwrap_or_else(all_cores),
-        crop: options.crop,
+        crop: options.crop.or_else(|| crop(desc, [width, height])),
         antialias: options.antialias,
         carried,
     };
@@ -140,6 +140,14 @@ pub(crate) fn prepared(
         material_names: material_names(desc),
         settings,
     })
+}
+
+/// The part of the picture that the file asks for.
+fn crop(desc: &SceneDesc, size: [u32; 2]) -> Option<Tile> {
+    let film = &desc.film;
+    let from = [film.width.unwrap_or(size[0]), film.height.unwrap_or(size[1])];
+    let [x0, x1, y0, y1] = film.crop?.pixels(from, size);
+    Some(Tile { x0, y0, x1, y1 })
 }
 
 /// Complains about a scene without geometry; `None` if that shall be an error and no sky of its own can be seen either.

@@ -41,6 +41,8 @@ impl ToWrite<'_> {
             height: options.height.unwrap_or(view.height),
             samples: options.samples.or(self.desc.film.samples).unwrap_or(self.prepared.settings.samples),
             sampler: options.sampler.unwrap_or(self.prepared.settings.sampler),
+            seed: options.seed.or(self.desc.film.seed).unwrap_or(0),
+            crop: self.prepared.settings.crop.map(|crop| [crop.x0, crop.x1, crop.y0, crop.y1]),
         }
     }
 
@@ -83,17 +85,11 @@ impl ToWrite<'_> {
     pub fn words(&self) -> Option<String> {
         let options = self.options;
         let mut words = String::new();
-        if options.seed != 0 {
-            words += &format!(" --seed {}", options.seed);
-        }
         if options.time != 0.0 {
             words += &format!(" --time-at {}", options.time);
         }
         if let Some(shutter) = options.shutter {
             words += &format!(" --shutter {},{}", shutter.min, shutter.max);
-        }
-        if let Some(crop) = options.crop {
-            words += &format!(" --crop {},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
         }
         if options.antialias != Antialias::Supersample {
             words += " --antialias adaptive";

@@ -24,8 +24,9 @@ pub enum LightSampler {
 }
 
 impl LightSampler {
-    /// All words, in the order of the variants; the last is pbrt-v4's for the tree.
-    pub const WORDS: [&'static str; 4] = ["uniform", "power", "tree", "bvh"];
+    /// All words, in the order of the variants; the last two are pbrt-v4's for a tree, and for asking each light what a tree
+    /// asks of groups.
+    pub const WORDS: [&'static str; 5] = ["uniform", "power", "tree", "bvh", "exhaustive"];
 
     /// The word in files and on the command line.
     pub fn word(self) -> &'static str {
@@ -34,7 +35,7 @@ impl LightSampler {
     /// The variant of a word.
     pub fn from_word(word: &str) -> Option<Self> {
         match word {
-            "bvh" => Some(Self::Tree),
+            "bvh" | "exhaustive" => Some(Self::Tree),
             _ => [Self::Uniform, Self::Power, Self::Tree].into_iter().find(|by| by.word() == word),
         }
     }

@@ -92,8 +92,44 @@ pub struct FilmDesc {
     pub diagonal_mm: Option<f32>,
     /// Speed of the film; 100 leaves pictures as they are.
     pub iso: Option<f32>,
+    /// Seconds for which the film is exposed, as far as brightness goes; 1 leaves pictures as they are.
+    pub exposure_seconds: Option<f32>,
+    /// The part of the picture that is wanted.
+    pub crop: Option<Crop>,
+    /// What changes every random number.
+    pub seed: Option<u64>,
     /// Where the file wants the picture written; shown by `info`, never written to unasked.
     pub filename: Option<String>,
+}
+
+/// A part of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum Crop {
+    /// First and last of x, then of y, as shares of the picture's size; y points down.
+    Window([f32; 4]),
+    /// The same in pixels of the size that the file gives; the last ones are left out.
+    Pixels([u32; 4]),
+}
+
+impl Crop {
+    /// First and last of x, then of y, in pixels of a picture of size `to`, where the file asks for `from`; as pbrt-v4 rounds.
+    pub fn pixels(self, [from_x, from_y]: [u32; 2], [to_x, to_y]: [u32; 2]) -> [u32; 4] {
+        let share = |share: f32, size: u32| (share * size as f32).ceil() as u32;
+        let edge = |edge: u32, from: u32, to: u32| {
+            (u64::from(edge) * u64::from(to)).div_ceil(u64::from(from.max(1))) as u32
+        };
+        match self {
+            Self::Window([x0, x1, y0, y1]) => {
+                [share(x0, to_x), share(x1, to_x), share(y0, to_y), share(y1, to_y)]
+            }
+            Self::Pixels([x0, x1, y0, y1]) => [
+                edge(x0, from_x, to_x),
+                edge(x1, from_x, to_x),
+                edge(y0, from_y, to_y),
+                edge(y1, from_y, to_y),
+            ],
+        }
+    }
 }
 
 /// What a texture yields.

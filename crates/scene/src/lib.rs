@@ -19,8 +19,8 @@ mod voxels;
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
-    AnimationDesc, CameraDesc, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface, MediumRef,
-    NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
+    AnimationDesc, CameraDesc, Crop, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface,
+    MediumRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};

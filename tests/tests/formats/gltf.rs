@@ -87,7 +87,11 @@ const PARTS: &[(&str, &str, &str)] = &[
         r#"{"count": 1, "indices": {"bufferView": 2, "componentType": 5125}, "values": {"bufferView": 0}}"#,
     ),
     ("pictures as KTX2", "/images/0/mimeType", r#""image/ktx2""#),
-    ("pictures as WebP", "/images/0/mimeType", r#""image/webp""#),
+    (
+        "pictures as WebP",
+        "/images/0/uri",
+        r#""data:image/webp;base64,UklGRjwAAABXRUJQVlA4TC8AAAAvAUAAEB8gEEiS2B91DSEBQfX/L4EAwYj/SwIBwroHvwJvWayCkgABUJSRiP4HAwA=""#,
+    ),
     ("matrices of nodes", "/nodes/0/matrix", "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
     ("mirroring nodes", "/nodes/0/scale", "[-1, 1, 1]"),
 ];

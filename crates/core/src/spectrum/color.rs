@@ -25,14 +25,21 @@ impl Color {
         Self { rgb: [v; 3] }
     }
     /// `f` of every component.
+    #[inline]
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
-        Self { rgb: self.rgb.map(f) }
+        let [r, g, b] = self.rgb;
+        Self::new(f(r), f(g), f(b))
+    }
+    /// `f` of every pair of components.
+    #[inline]
+    fn zip(self, o: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        let ([r, g, b], [x, y, z]) = (self.rgb, o.rgb);
+        Self::new(f(r, x), f(g, y), f(b, z))
     }
     /// Luminance of the linear components (Rec. 709 weights).
     pub fn luminance(self) -> f32 {
-        let [r, g, b] = self.rgb;
-        let [to_r, to_g, to_b] = LUMINANCE.map(|weight| weight as f32);
-        to_r * r + to_g * g + to_b * b
+        let ([r, g, b], [to_r, to_g, to_b]) = (self.rgb, LUMINANCE);
+        to_r as f32 * r + to_g as f32 * g + to_b as f32 * b
     }
 }
 
@@ -48,13 +55,13 @@ pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
 impl Add for Color {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        Self { rgb: std::array::from_fn(|i| self.rgb[i] + o.rgb[i]) }
+        self.zip(o, |a, b| a + b)
     }
 }
 impl Mul for Color {
     type Output = Self;
     fn mul(self, o: Self) -> Self {
-        Self { rgb: std::array::from_fn(|i| self.rgb[i] * o.rgb[i]) }
+        self.zip(o, |a, b| a * b)
     }
 }
 impl Mul<f32> for Color {

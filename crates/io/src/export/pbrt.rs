@@ -34,6 +34,10 @@ pub struct Film {
     pub samples: u32,
     /// How they become random numbers.
     pub sampler: SamplerKind,
+    /// What changes all of these; 0 is left out.
+    pub seed: u64,
+    /// The part that is wanted: first and last of x, then of y, in pixels.
+    pub crop: Option<[u32; 4]>,
 }
 
 /// What is written, and how.
@@ -153,7 +157,7 @@ impl Writer<'_> {
     }
 
     fn options(&mut self, film: Film, camera: usize) {
-        let Film { width, height, samples, sampler } = film;
+        let Film { width, height, samples, sampler, seed, crop } = film;
         if let Some((start, end)) = self.times.seconds() {
             self.line(&format!("TransformTimes {start} {end}"));
         }
@@ -170,7 +174,20 @@ impl Writer<'_> {
         let file = file.map(|f| format!(" \"string filename\" [ {} ]", quoted(f))).unwrap_or_default();
         let told =
             |name: &str, v: Option<f32>| v.map(|v| format!(" \"float {name}\" [ {v} ]")).unwrap_or_default();
-        let back = told("diagonal", self.desc.film.diagonal_mm) + &told("iso", self.desc.film.iso);
+        let film = &self.desc.film;
+        let back = [
+            told("diagonal", film.diagonal_mm),
+            told("iso", film.iso),
+            told("exposuretime", film.exposure_seconds),
+            crop.map(|[x0, x1, y0, y1]| format!(" \"integer pixelbounds\" [ {x0} {x1} {y0} {y1} ]"))
+                .unwrap_or_default(),
+        ]
+        .concat();
+        // Seeds of files have 32 bits.
+        let seed = match seed as u32 as i32 {
+            0 => String::new(),
+            seed => format!(" \"integer seed\" [ {seed} ]"),
+        };
         let kind = if self.desc.film.spectral { "spectral" } else { "rgb" };
         self.line(&format!(
             "Film \"{kind}\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{back}{file}"
@@ -180,10 +197,10 @@ impl Writer<'_> {
                 let jitter = sampler == SamplerKind::Stratified;
                 format!(
                     "Sampler \"stratified\" \"integer xsamples\" [ {samples} ] \"integer ysamples\" [ 1 ] \
-                     \"bool jitter\" [ {jitter} ]"
+                     \"bool jitter\" [ {jitter} ]{seed}"
                 )
             }
-            kind => format!("Sampler {} \"integer pixelsamples\" [ {samples} ]", quoted(kind.word())),
+            kind => format!("Sampler {} \"integer pixelsamples\" [ {samples} ]{seed}", quoted(kind.word())),
         });
         if let Some(filter) = &self.desc.filter {
             self.node("PixelFilter", filter, ("", "the filter"));

@@ -245,16 +245,53 @@ fn film_and_sampler_are_checked() {
 }
 
 #[test]
+fn colours_that_rec_709_does_not_hold_are_cut_off_and_named_once() {
+    world_says(
+        "ColorSpace \"rec2020\"\nMaterial \"diffuse\" \"rgb reflectance\" [.5 .4 .5]\n\
+         Material \"diffuse\" \"rgb reflectance\" [0 1 0]\nMaterial \"diffuse\" \"rgb reflectance\" [0 .9 0]\nShape \"sphere\"",
+        &[
+            "4:20 warning: a colour of rec2020 lies outside Rec. 709: it is cut off | \"rgb reflectance\" [0 1 0]",
+        ],
+    );
+}
+
+#[test]
+fn parts_of_the_picture_that_hold_no_pixel_are_refused() {
+    let film = |words: &str, complaint: &str| {
+        says(
+            &format!("Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6 {words}\nWorldBegin"),
+            &[complaint],
+        );
+    };
+    film(
+        "\"float cropwindow\" [.5 .5 0 1]",
+        "1:60 error: no pixel of the picture lies in x 4 to 4 and y 0 to 6 | \"float cropwindow\" [.5 .5 0 1]",
+    );
+    film(
+        "\"integer pixelbounds\" [8 9 0 6]",
+        "1:60 error: no pixel of the picture lies in x 8 to 9 and y 0 to 6 | \"integer pixelbounds\" [8 9 0 6]",
+    );
+    film(
+        "\"integer pixelbounds\" [0 1 2]",
+        "1:60 error: \"pixelbounds\" has 3 values, expected 4: x0 x1 y0 y1 | \"integer pixelbounds\" [0 1 2]",
+    );
+    film(
+        "\"float cropwindow\" [0 1 0 2]",
+        "1:60 error: \"cropwindow\" is 2, expected 0 to 1 | \"float cropwindow\" [0 1 0 2]",
+    );
+}
+
+#[test]
 fn what_is_not_supported_warns_once() {
     says(
-        "Film \"gbuffer\" \"float iso\" 200 \"float diagonal\" 20\nAccelerator \"kdtree\"\nOption \"integer seed\" 3\nColorSpace \"rec2020\"\n\
+        "Film \"gbuffer\" \"float iso\" 200 \"float diagonal\" 20\nAccelerator \"kdtree\"\nOption \"bool forcediffuse\" true\n\
+         ColorSpace \"rec2020\"\n\
          MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nWorldBegin\nMediumInterface \"\" \"\"\nMediumInterface \"fog\"\n\
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"sphere\"\nAreaLightSource \"diffuse\"\nWorldEnd",
         &[
             "1:6 warning: the film's \"gbuffer\" is not supported yet; it is ignored | \"gbuffer\"",
             "2:13 note: durer chooses its acceleration structure itself | \"kdtree\"",
-            "3:8 warning: the option \"seed\" is not supported yet; it is ignored | \"integer seed\" 3",
-            "4:12 warning: the colour space \"rec2020\" is not supported yet; colours are read as sRGB | \"rec2020\"",
+            "3:8 warning: the option \"forcediffuse\" is not supported yet; it is ignored | \"bool forcediffuse\" true",
             "12:1 warning: pbrt-v4 has no WorldEnd: it is ignored | WorldEnd",
         ],
     );

@@ -2,7 +2,7 @@
 use durer_core::glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
-use durer_scene::{Data, Location, ShapeDesc, ShapeSource, TextureValue, ValueType};
+use durer_scene::{Crop, Data, Location, ShapeDesc, ShapeSource, TextureValue, ValueType};
 
 use super::read::{complaints, read, sound};
 
@@ -24,6 +24,58 @@ fn kind(shape: &ShapeDesc) -> &str {
 }
 
 #[test]
+fn crops_and_seeds_are_read() {
+    let of = |text: &str| sound(&format!("{text}\nWorldBegin")).film;
+    let film = of(
+        "Film \"rgb\" \"float cropwindow\" [ 1 .25 0 .5 ] \"float exposuretime\" .5\nOption \"integer seed\" 7",
+    );
+    assert_eq!((film.exposure_seconds, film.seed), (Some(0.5), Some(7)));
+    let crop = film.crop.expect("a part");
+    assert_eq!(crop, Crop::Window([0.25, 1.0, 0.0, 0.5]));
+    // Rounded up, as pbrt-v4 does.
+    assert_eq!(crop.pixels([8, 8], [10, 5]), [3, 10, 0, 3]);
+    let film = of(
+        "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6 \"integer pixelbounds\" [1 3 2 6]\n\
+                   Sampler \"sobol\" \"integer seed\" -1",
+    );
+    assert_eq!(film.seed, Some(0xffff_ffff));
+    let crop = film.crop.expect("a part");
+    assert_eq!(crop.pixels([8, 6], [8, 6]), [1, 3, 2, 6]);
+    assert_eq!(crop.pixels([8, 6], [16, 3]), [2, 6, 1, 3]);
+    // All of it is no part.
+    let all = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6";
+    assert_eq!(of(&format!("{all} \"float cropwindow\" [0 1 0 1]")).crop, None);
+    assert_eq!(of(&format!("{all} \"integer pixelbounds\" [0 8 0 6]")).crop, None);
+}
+
+#[test]
+fn colours_of_other_spaces_become_ours() {
+    let colors = |text: &str| -> Vec<Vec<f32>> {
+        let desc = sound(&format!("WorldBegin\n{text}\nShape \"sphere\""));
+        let params = desc.materials.iter().map(|m| &m.node).chain(desc.lights.iter().map(|l| &l.node));
+        params
+            .flat_map(|node| node.params.iter())
+            .filter_map(|p| if let Data::Floats(v) = &p.data { Some(v.clone()) } else { None })
+            .collect()
+    };
+    let near = |found: &[f32], expected: [f32; 3]| {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-4), "{found:?}, not {expected:?}");
+    };
+    // A surface keeps white, and light its colour; the space ends with its block.
+    let text = "AttributeBegin ColorSpace \"aces2065-1\" Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n\
+                LightSource \"point\" \"rgb I\" [1 1 1] AttributeEnd Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3]";
+    let found = colors(text);
+    near(&found[0], [0.5; 3]);
+    assert_eq!(found[1], [0.1, 0.2, 0.3]);
+    assert!(found[2][0] > 1.01 && found[2][2] < 0.95, "{found:?}");
+    // The matrix of BT.2087, in double precision by another program.
+    near(
+        &colors("ColorSpace \"rec2020\" Material \"diffuse\" \"rgb reflectance\" [.6 .5 .4]")[0],
+        [0.67333, 0.48838, 0.38631],
+    );
+}
+
+#[test]
 fn options_are_read() {
     let desc = sound(
         "LookAt 0 0 4  0 0 0  0 1 0\r\n\
@@ -35,6 +87,7 @@ fn options_are_read() {
     assert_eq!((desc.film.width, desc.film.height, desc.film.samples), (Some(1280), Some(30), Some(7)));
     assert_eq!(desc.film.filename.as_deref(), Some("out.exr"));
     assert_eq!((desc.film.diagonal_mm, desc.film.iso), (Some(20.0), Some(400.0)));
+    assert_eq!((desc.film.crop, desc.film.seed), (None, None));
     assert_eq!(desc.filter.map(|n| n.kind).as_deref(), Some("box"));
     assert_eq!(desc.sampler.map(|n| n.kind).as_deref(), Some("halton"));
     let integrator = desc.integrator.expect("an integrator");

@@ -105,7 +105,7 @@ pub(super) fn view(
     let mut camera = nodes.camera(&desc.node)?;
     let film = &nodes.desc.film;
     let diagonal = film.diagonal_mm.map_or(FilmBack::default().diagonal, |mm| mm * 1e-3);
-    let speed = film.iso.unwrap_or(USUAL_ISO) / USUAL_ISO;
+    let speed = film.iso.unwrap_or(USUAL_ISO) / USUAL_ISO * film.exposure_seconds.unwrap_or(1.0);
     camera.load(FilmBack { diagonal });
     camera.fit(options.width, options.height);
     let moves = things_move || !desc.world_from_camera.is_still();

@@ -84,7 +84,7 @@ pub(super) fn fields(id: FormId, settings: &Settings) -> Vec<Field> {
             "width" => options.width.into(),
             "height" => options.height.into(),
             "samples" => options.samples.or(settings.desc.film.samples).into(),
-            "seed" => options.seed.into(),
+            "seed" => options.seed.or(settings.desc.film.seed).unwrap_or(0).into(),
             "spectral" => match options.carried {
                 Some(carried) => (carried == Carried::Wavelengths).into(),
                 None => settings.desc.film.spectral.into(),
@@ -134,7 +134,7 @@ pub(super) fn set(
             *look = Look { tonemap: value.as_str().and_then(ToneMap::from_word), ..*look };
         }
         "samples" => options.samples = whole(opened.options.samples),
-        "seed" => options.seed = number.map_or(opened.options.seed, |v| v as u64),
+        "seed" => options.seed = number.map_or(opened.options.seed, |v| Some(v as u64)),
         "spectral" => {
             let wanted = value.as_bool().map(|on| if on { Carried::Wavelengths } else { Carried::Rgb });
             options.carried = wanted.or(opened.options.carried);

@@ -65,7 +65,7 @@ fn what_is_filled_in_is_what_the_command_line_would_ask_for() {
     page.say(&json!({ "type": "set", "form": "film", "param": "samples", "value": 9 }));
     page.say(&json!({ "type": "set", "form": "film", "param": "width", "value": 30 }));
     page.say(&json!({ "type": "set", "form": "film", "param": "seed", "value": 5 }));
-    let other = Options { samples: Some(9), width: Some(30), seed: 5, ..path };
+    let other = Options { samples: Some(9), width: Some(30), seed: Some(5), ..path };
     let last = page.frame_when(|h| h["of"] == 9 && h["film"] == json!([30, 36]) && h["done"] == true);
     if last.rgb8 != rendered("whitted", &other) {
         // The seed may have come a picture later.

@@ -1,6 +1,7 @@
 //! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
 use durer_scene::{
-    Args, Diagnostics, FilmDesc, Location, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema,
+    Args, Crop, Diagnostics, FilmDesc, Location, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
+    Schema, counted,
 };
 
 const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> ParamSpec {
@@ -20,11 +21,26 @@ pub(super) const FILM: Schema = Schema {
             .unit("mm")
             .above(0.0, 1e6),
         ParamSpec::new("savefp16", ParamType::Bool, ParamDefault::Bool(true), "no effect"),
-        ParamSpec::new("cropwindow", ParamType::Floats, ParamDefault::Unset, "not supported yet"),
-        ParamSpec::new("pixelbounds", ParamType::Ints, ParamDefault::Unset, "not supported yet"),
+        ParamSpec::new(
+            "cropwindow",
+            ParamType::Floats,
+            ParamDefault::Unset,
+            "x0 x1 y0 y1: the part rendered",
+        )
+        .range(0.0, 1.0),
+        ParamSpec::new(
+            "pixelbounds",
+            ParamType::Ints,
+            ParamDefault::Unset,
+            "x0 x1 y0 y1: the same in pixels",
+        )
+        .unit("px")
+        .range(0.0, 1e6),
         ParamSpec::new("sensor", ParamType::Text, ParamDefault::Text("cie1931"), "only the default"),
         ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").above(0.0, f32::INFINITY),
-        ParamSpec::float("exposuretime", 1.0, "only the default"),
+        ParamSpec::float("exposuretime", 1.0, "multiplies the picture, 1 is 1")
+            .unit("s")
+            .above(0.0, f32::INFINITY),
         ParamSpec::float("whitebalance", 0.0, "only the default").unit("K"),
         ParamSpec::float("scale", 1.0, "only the default"),
         ParamSpec::new("maxcomponentvalue", ParamType::Float, ParamDefault::Unset, "not supported yet"),
@@ -44,7 +60,8 @@ pub(super) const FILM: Schema = Schema {
 const SAMPLERS: [&str; 6] = ["halton", "independent", "paddedsobol", "sobol", "zsobol", "pmj02bn"];
 
 const SAMPLES: ParamSpec = int("pixelsamples", 16, 1e9, "samples per pixel");
-const SEED: ParamSpec = ParamSpec::new("seed", ParamType::Int, ParamDefault::Int(0), "no effect");
+const SEED: ParamSpec =
+    ParamSpec::new("seed", ParamType::Int, ParamDefault::Int(0), "changes every random number");
 
 /// Parameters of the samplers that take `pixelsamples`.
 pub(super) const SAMPLER: Schema = Schema {
@@ -99,20 +116,22 @@ pub(super) fn film(
             FILM.aliases.iter().copied().chain([FILM.name]),
         );
     }
-    let args = Args::check(node, FILM, &[], diagnostics);
+    let mut args = Args::check(node, FILM, &[], diagnostics);
     film.spectral = node.kind == "spectral";
     film.width = u32::try_from(args.int("xresolution")).ok();
     film.height = u32::try_from(args.int("yresolution")).ok();
-    for (name, into) in [("diagonal", &mut film.diagonal_mm), ("iso", &mut film.iso)] {
+    let numbers = [
+        ("diagonal", &mut film.diagonal_mm),
+        ("iso", &mut film.iso),
+        ("exposuretime", &mut film.exposure_seconds),
+    ];
+    for (name, into) in numbers {
         *into = args.is_set(name).then(|| args.float(name));
     }
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
-    let crop = args.floats("cropwindow");
+    film.crop = crop(&mut args);
     let unusual = [
-        ("cropwindow", !crop.is_empty() && crop != [0.0, 1.0, 0.0, 1.0]),
-        ("pixelbounds", !args.ints("pixelbounds").is_empty() && !whole(&args)),
         ("sensor", args.text("sensor") != "cie1931"),
-        ("exposuretime", args.float("exposuretime") != 1.0),
         ("whitebalance", args.float("whitebalance") != 0.0),
         ("scale", args.float("scale") != 1.0),
         ("maxcomponentvalue", args.optional_float("maxcomponentvalue").is_some()),
@@ -128,9 +147,40 @@ pub(super) fn film(
     vain
 }
 
-/// True if `pixelbounds` is the whole picture.
-fn whole(args: &Args<'_>) -> bool {
-    args.ints("pixelbounds") == [0, args.int("xresolution"), 0, args.int("yresolution")]
+/// The part of the picture that `cropwindow` or `pixelbounds` asks for; `None` for all of it.
+fn crop(args: &mut Args<'_>) -> Option<Crop> {
+    let given = ["cropwindow", "pixelbounds"].map(|name| args.is_set(name));
+    let name = match given {
+        [false, false] => return None,
+        [true, false] => "cropwindow",
+        [false, true] => "pixelbounds",
+        [true, true] => {
+            args.error(
+                "pixelbounds",
+                "both \"cropwindow\" and \"pixelbounds\" are given: each says which part",
+            );
+            return None;
+        }
+    };
+    let size =
+        [args.int("xresolution"), args.int("yresolution")].map(|edge| u32::try_from(edge).unwrap_or(0));
+    let crop = match (args.floats("cropwindow"), args.ints("pixelbounds")) {
+        (&[x0, x1, y0, y1], _) => Crop::Window([x0.min(x1), x0.max(x1), y0.min(y1), y0.max(y1)]),
+        (_, &[x0, x1, y0, y1]) => Crop::Pixels([x0, x1, y0, y1].map(|edge| u32::try_from(edge).unwrap_or(0))),
+        (floats, ints) => {
+            let found = counted(floats.len() + ints.len(), "value");
+            args.error(name, format!("\"{name}\" has {found}, expected 4: x0 x1 y0 y1"));
+            return None;
+        }
+    };
+    if !args.is_sound() {
+        return None;
+    }
+    let [x0, x1, y0, y1] = crop.pixels(size, size);
+    if x0 >= x1.min(size[0]) || y0 >= y1.min(size[1]) {
+        args.error(name, format!("no pixel of the picture lies in x {x0} to {x1} and y {y0} to {y1}"));
+    }
+    ([x0, x1, y0, y1] != [0, size[0], 0, size[1]]).then_some(crop)
 }
 
 /// Reads `Sampler`.
@@ -138,6 +188,7 @@ pub(super) fn sampler(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagno
     if node.kind == STRATIFIED.name {
         let args = Args::check(node, STRATIFIED, &[], diagnostics);
         film.samples = u32::try_from(args.int("xsamples").saturating_mul(args.int("ysamples"))).ok();
+        film.seed = seed(&args).or(film.seed);
         return;
     }
     if !SAMPLERS.contains(&node.kind.as_str()) {
@@ -160,4 +211,10 @@ pub(super) fn sampler(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagno
     let name = SAMPLERS.into_iter().find(|s| *s == node.kind).unwrap_or(SAMPLER.name);
     let args = Args::check(node, Schema { name, ..SAMPLER }, &[], diagnostics);
     film.samples = u32::try_from(args.int(SAMPLES.name)).ok();
+    film.seed = seed(&args).or(film.seed);
+}
+
+/// The seed of a sampler, if it gives one; negative ones are as good as others.
+fn seed(args: &Args<'_>) -> Option<u64> {
+    args.is_set(SEED.name).then(|| args.int(SEED.name) as u32 as u64)
 }

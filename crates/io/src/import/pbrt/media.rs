@@ -13,7 +13,7 @@ impl Parser<'_> {
     /// `MakeNamedMedium`
     pub(super) fn make_named_medium(&mut self, head: Token) -> Result<(), Reported> {
         let name = self.input.string(head, "a name")?;
-        let params = self.input.params();
+        let params = self.params();
         if name.text.is_empty() {
             self.input.error(name.at, "a medium needs a name: the empty one stands for nothing");
             return params.map(|_| ());

@@ -5,6 +5,7 @@
 //! parameters are checked later, against the registry of the model; only `Film` and `Sampler` are checked here.
 
 mod block;
+mod color_space;
 mod cutout;
 mod directive;
 mod files;

@@ -18,11 +18,26 @@ impl Parser<'_> {
     /// A kind and its parameters; `what` is "a kind of" something where older versions had other words.
     pub(super) fn kind_and_params(&mut self, head: Token, what: &str) -> Result<(Word, ParamList), Reported> {
         let kind = self.input.string(head, what)?;
-        let mut params = self.input.params()?;
+        let mut params = self.params()?;
         retired::sift(&mut params, self.input.diagnostics);
         let family = what.strip_prefix("a kind of ").unwrap_or("");
         let retired = retired::complain(family, &kind, self.input.diagnostics);
         if retired { Err(Reported) } else { Ok((kind, params)) }
+    }
+
+    /// The parameters of a directive, their colours in our space.
+    pub(super) fn params(&mut self) -> Result<ParamList, Reported> {
+        let mut params = self.input.params()?;
+        let space = self.state.color_space;
+        let outside: Vec<Location> =
+            params.iter_mut().filter_map(|param| space.convert(param).then(|| param.at.clone())).collect();
+        for at in outside {
+            if self.first_time("colour outside") {
+                let message = format!("a colour of {} lies outside Rec. 709: it is cut off", space.name);
+                self.input.diagnostics.warning(at, message);
+            }
+        }
+        Ok(params)
     }
 
     pub(super) fn node(&mut self, head: Token, what: &str) -> Result<Node, Reported> {
@@ -160,7 +175,7 @@ impl Parser<'_> {
     /// `MakeNamedMaterial`
     pub(super) fn make_named_material(&mut self, head: Token) -> Result<(), Reported> {
         let name = self.input.string(head, "a name")?;
-        let mut params = self.input.params();
+        let mut params = self.params();
         if let Ok(params) = &mut params {
             retired::sift(params, self.input.diagnostics);
         }

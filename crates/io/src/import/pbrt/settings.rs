@@ -1,10 +1,14 @@
 //! The directives before `WorldBegin`: camera, picture and transport.
-use durer_scene::{CameraDesc, Node};
+use durer_scene::{CameraDesc, Data, Node};
 
-use super::{film, input::Reported, lexer::Token, params::stored, parser::Parser};
-
-/// Colour spaces of pbrt-v4; ours comes first.
-const COLOR_SPACES: [&str; 4] = ["srgb", "rec2020", "aces2065-1", "dci-p3"];
+use super::{
+    color_space::{COLOR_SPACES, ColorSpace},
+    film,
+    input::Reported,
+    lexer::Token,
+    params::stored,
+    parser::Parser,
+};
 
 /// Keeps the search for names cheap.
 const MOST_CAMERAS: usize = 1024;
@@ -104,7 +108,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `Option`
+    /// `Option`: the seed counts, for the rest there are options of the command line.
     pub(super) fn option(&mut self, head: Token) -> Result<(), Reported> {
         let params = self.input.params()?;
         let Some(param) = params.first() else {
@@ -114,6 +118,15 @@ impl Parser<'_> {
         };
         match OPTIONS.iter().find(|o| **o == param.name) {
             None => self.input.diagnostics.unknown(param.at.clone(), "option", &param.name, OPTIONS),
+            Some(&"seed") => match &param.data {
+                Data::Ints(seed) if seed.len() == 1 => {
+                    self.world.desc.film.seed = seed.first().map(|&seed| u64::from(seed as u32));
+                }
+                _ => {
+                    let message = "the option \"seed\" takes one \"integer\"";
+                    self.input.diagnostics.error(param.at.clone(), message);
+                }
+            },
             Some(option) if self.first_time(option) => {
                 let message = format!("the option \"{option}\" is not supported yet; it is ignored");
                 self.input.diagnostics.warning(param.at.clone(), message);
@@ -126,12 +139,12 @@ impl Parser<'_> {
     /// `ColorSpace`
     pub(super) fn color_space(&mut self, head: Token) -> Result<(), Reported> {
         let name = self.input.string(head, "a colour space")?;
-        if !COLOR_SPACES.contains(&name.text.as_str()) {
-            self.input.diagnostics.unknown(name.at, "colour space", &name.text, COLOR_SPACES);
-        } else if name.text != "srgb" {
-            let message =
-                format!("the colour space \"{}\" is not supported yet; colours are read as sRGB", name.text);
-            self.warn_once("ColorSpace", name.at, message);
+        match ColorSpace::of(&name.text) {
+            Some(space) => self.state.color_space = space,
+            None => {
+                let known = COLOR_SPACES.map(|space| space.name);
+                self.input.diagnostics.unknown(name.at, "colour space", &name.text, known);
+            }
         }
         Ok(())
     }

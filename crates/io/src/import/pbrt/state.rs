@@ -4,6 +4,7 @@ use std::sync::Arc;
 use durer_scene::{MaterialRef, MediumInterface, Node, Span};
 
 use super::{
+    color_space::ColorSpace,
     directive::Directive,
     params::{MOST_PARAMS, ParamList},
     placement::{Active, Placement},
@@ -76,6 +77,8 @@ pub(super) struct State {
     pub(super) area_light: Option<Arc<Node>>,
     /// What is on the two sides of the next surfaces, and around the next camera, if anything was said.
     pub(super) media: Option<MediumInterface>,
+    /// What colours mean.
+    pub(super) color_space: ColorSpace,
     /// From `Attribute`.
     pub(super) inherited: Inherited,
 }
@@ -89,6 +92,7 @@ impl State {
             reverse: false,
             area_light: None,
             media: None,
+            color_space: ColorSpace::SRGB,
             inherited: Inherited::default(),
         }
     }
