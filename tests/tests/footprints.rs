@@ -116,7 +116,7 @@ fn filtering_lowers_the_variance_and_keeps_the_mean() {
             integrator: Some("cast".into()),
             show: Some(Show::Albedo),
             samples: Some(4),
-            seed,
+            seed: Some(seed),
             ..Options::default()
         };
         render(&scene(&board(&format!("\"string filter\" \"{filter}\"")), &options))
