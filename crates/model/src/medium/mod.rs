@@ -33,7 +33,7 @@ pub use self::{
     flight::{Draws, End, Flight, Passage},
     homogeneous::Homogeneous,
     nanovdb::NanoVdb,
-    phase::HenyeyGreenstein,
+    phase::{HenyeyGreenstein, Phase},
     rgbgrid::RgbGrid,
     uniformgrid::UniformGrid,
     volume::Volume,
