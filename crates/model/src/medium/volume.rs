@@ -162,7 +162,7 @@ impl Volume {
             | Field::Wisps(matter, _) => {
                 (basis.unbounded(matter.sigma_a) + basis.unbounded(matter.sigma_s)).max()
             }
-            Field::Colored(_) => 1.0,
+            Field::Colored(_) => basis.headroom(),
         }
     }
 }

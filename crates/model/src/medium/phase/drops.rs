@@ -13,7 +13,7 @@ use durer_core::{
         Guide,
         float::{acos, asin, cos, sin, sqr},
     },
-    spectrum::{Basis, Color, Spectrum, index},
+    spectrum::{Basis, Color, HUES, Spectrum, index},
 };
 
 use crate::bsdf::fresnel_polarized;
@@ -28,8 +28,6 @@ const CHORDS: usize = 8;
 const FIRST: f32 = 360.0;
 const WAVES: usize = 95;
 const APART: f32 = 5.0;
-/// Those for which red, green and blue stand: nearest in hue to the primaries of Rec. 709.
-const PRIMARIES: [f32; 3] = [611.4, 549.1, 464.2];
 
 /// Their phase function.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +91,7 @@ impl Drops {
         let step = step_of(cos);
         match basis {
             Basis::Rgb => {
-                let [r, g, b] = PRIMARIES.map(|nm| self.of_wave(step, nm));
+                let [r, g, b] = HUES.map(|nm| self.of_wave(step, nm as f32));
                 basis.reflectance(Color::new(r, g, b))
             }
             Basis::Spectral(wavelengths) => wavelengths.map(Spectrum::ONE, |nm, _| self.of_wave(step, nm)),
