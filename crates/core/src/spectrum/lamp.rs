@@ -3,6 +3,7 @@
 
 /// Name, and relative power from 380 to 780 nm every five.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "lamps of 3.14 by chance")]
 pub(super) const LAMPS: [(&str, [f32; 81]); 12] = [
     ("stdillum-F1", [
         1.87, 2.36, 2.94, 3.47, 5.17, 19.49, 6.13, 6.24, 7.01, 7.79, 8.56, 43.67, 16.94, 10.72, 11.35, 11.89, 12.37,

@@ -152,7 +152,7 @@ fn turned_by(n: f32) -> Vec<f64> {
                 0 => mirrored,
                 _ => sqr(1.0 - mirrored) * mirrored.powi(chords as i32 - 1),
             };
-            add(&mut shares, light * f64::from(0.5 * (left(s) + left(p))), ends.into());
+            add(&mut shares, light * f64::from(0.5 * (left(s) + left(p))), ends);
         }
         before = after;
     }
