@@ -1,6 +1,6 @@
 //! Rays that carry wavelengths: what is grey is as it is with colours, what is bent goes where its index says.
 use durer::{Options, Prepared, builtin, film::Tile, spectrum::Carried};
-use durer_tests::{prepared, render, scene};
+use durer_tests::{import, prepared, render, scene};
 
 /// Options of one or the other.
 fn carrying(carried: Carried) -> Options {
@@ -366,4 +366,24 @@ fn the_rainbow_is_red_outside_the_second_one_inside_and_dark_between() {
     };
     let [inside, dark, outside] = [(34.0, 38.0), (44.0, 49.0), (56.0, 60.0)].map(mean);
     assert!(dark < 0.6 * inside && dark < 0.95 * outside, "{inside} {dark} {outside}");
+}
+
+#[test]
+fn indices_that_contradict_each_other_are_refused() {
+    for (glass, message) in [
+        ("\"float eta\" 1.5 \"float cauchy\" [1.5 0.004]", "give one of them"),
+        ("\"float cauchy\" [1.5 0.004 0 0]", "expected A B or A B C"),
+        ("\"float cauchy\" [0.5 -3]", "expected 0.1 to 10"),
+        ("\"spectrum eta\" \"glass-BK7\" \"float dispersion\" 1", "no place beside a curve"),
+    ] {
+        let mut imported = import(&format!("WorldBegin Material \"dielectric\" {glass} Shape \"sphere\""));
+        assert!(durer::prepare(&mut imported, &Options::default()).is_none(), "{glass}");
+        let said = format!("{:?}", imported.diagnostics);
+        assert!(said.contains(message), "{glass}: {said}");
+    }
+    let rain =
+        "MakeNamedMedium \"m\" \"string phase\" \"waterdrops\" \"float g\" 0.5 WorldBegin Shape \"sphere\"";
+    let mut imported = import(&rain.replace("\"m\"", "\"m\" \"string type\" \"homogeneous\""));
+    assert!(durer::prepare(&mut imported, &Options::default()).is_some());
+    assert!(format!("{:?}", imported.diagnostics).contains("no effect beside"));
 }
