@@ -235,6 +235,35 @@ fn every_builtin_scene_can_be_written_as_glb() {
 }
 
 #[test]
+fn glass_keeps_how_it_disperses_as_glb() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("glass.pbrt");
+    for (glass, eta, dispersion) in [
+        ("\"dielectric\" \"spectrum eta\" \"glass-SF11\"", 1.7847, 20.0 / 25.68),
+        ("\"dielectric\" \"float cauchy\" [1.5046 0.0042]", 1.5168, 0.3112),
+        ("\"classic\" \"rgb transmission\" [1 1 1] \"float eta\" 1.6 \"float dispersion\" 0.5", 1.6, 0.5),
+        (
+            "\"principled\" \"float transmission\" 1 \"float thickness\" 1 \"float eta\" 1.6 \"float dispersion\" 2",
+            1.6,
+            2.0,
+        ),
+    ] {
+        fs::write(&file, format!("WorldBegin Material {glass} Shape \"sphere\"")).expect("written");
+        let (studio, prepared) = opened(file.to_str().expect("text"), &small());
+        let glb = to_write(&studio, &prepared).glb().expect("written");
+        let length = u32::from_le_bytes(glb.bytes[12..16].try_into().expect("four"));
+        let document: serde_json::Value =
+            serde_json::from_slice(&glb.bytes[20..20 + length as usize]).expect("a document");
+        let said = |extension: &str, key: &str| {
+            document["materials"][0]["extensions"][extension][key].as_f64().expect("a number")
+        };
+        assert!((said("KHR_materials_ior", "ior") - eta).abs() < 2e-4, "{glass}");
+        let found = said("KHR_materials_dispersion", "dispersion");
+        assert!((found / dispersion - 1.0).abs() < 3e-3, "{glass}: {found}");
+    }
+}
+
+#[test]
 fn what_gltf_has_no_words_for_is_named() {
     let (_, warnings) = as_glb("whitted", &small());
     let all = warnings.join("\n");

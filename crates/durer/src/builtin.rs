@@ -87,6 +87,11 @@ pub const SCENES: &[Builtin] = &[
         doc: "white light and five lines of a spectrum, seen through a prism of flint glass (in wavelengths)",
         text: include_str!("../scenes/prism.pbrt"),
     },
+    Builtin {
+        name: "rainbow",
+        doc: "two bows and the dark band between, in a shower of round drops of water (in wavelengths)",
+        text: include_str!("../scenes/rainbow.pbrt"),
+    },
 ];
 
 /// The built-in scene of this name.

@@ -56,7 +56,8 @@ fn extensions_of_the_material_become_its_layers() {
         "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
             "diffuseTransmissionColorFactor": [1, 0.5, 0]},
         "KHR_materials_transmission": {"transmissionFactor": 1},
-        "KHR_materials_volume": {"thicknessFactor": 0.125, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2}
+        "KHR_materials_volume": {"thicknessFactor": 0.125, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2},
+        "KHR_materials_dispersion": {"dispersion": 0.25}
     }}]});
     let desc = import_well(d, &[]).desc;
     let m = &desc.materials[0].node;
@@ -77,6 +78,7 @@ fn extensions_of_the_material_become_its_layers() {
         ("thickness", vec![0.125]),
         ("attenuationcolor", vec![0.5, 1.0, 1.0]),
         ("attenuationdistance", vec![2.0]),
+        ("dispersion", vec![0.25]),
     ] {
         assert_eq!(numbers(m, name), value, "{name}");
     }

@@ -112,7 +112,7 @@ fn many_textures_are_counted_after_the_first_twenty() {
 
 #[test]
 fn what_a_picture_lacks_is_said_when_it_is_rendered() {
-    let gltf = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_dispersion", "KHR_xmp"],
+    let gltf = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness", "KHR_xmp"],
         "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
             "samplers": [{"input": 1, "output": 0}]}],
@@ -123,7 +123,7 @@ fn what_a_picture_lacks_is_said_when_it_is_rendered() {
         "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
     let place = Place::new().with("x.gltf", gltf);
     let said = place.done("render x.gltf --width 8 --spp 1").stderr;
-    assert!(said.contains("warning: ") && said.contains("KHR_materials_dispersion"), "{said}");
+    assert!(said.contains("warning: ") && said.contains("KHR_materials_pbrSpecularGlossiness"), "{said}");
     assert!(said.contains("1 animation is not played"), "{said}");
     assert!(!said.contains("KHR_xmp"), "metadata is no loss: {said}");
 }

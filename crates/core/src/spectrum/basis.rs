@@ -61,6 +61,13 @@ impl Basis {
             Self::Spectral(wavelengths) => smooth(wavelengths, c, Fit::Loose),
         }
     }
+    /// No lane of [`Self::unbounded`] is larger than this times the largest component.
+    pub fn headroom(&self) -> f32 {
+        match self {
+            Self::Rgb => 1.0,
+            Self::Spectral(_) => HEADROOM,
+        }
+    }
     /// Lanes of an emitted quantity: in white, D65.
     #[inline]
     pub fn emission(&self, c: Color) -> Spectrum {
@@ -169,12 +176,15 @@ impl Spectrum {
     }
 }
 
+/// How much an amount may exceed its largest component at some wavelength: curves are at most 1.
+const HEADROOM: f32 = 2.0;
+
 /// What a colour's curve is taken from.
 #[derive(Clone, Copy, PartialEq)]
 enum Fit {
     /// A share of light: the curve of this colour.
     Tight,
-    /// An amount: twice its largest component times the curve of what is left, which is smoother (pbrt-v4).
+    /// An amount: [`HEADROOM`] times its largest component times the curve of what is left, which is smoother (pbrt-v4).
     Loose,
 }
 
@@ -188,7 +198,7 @@ fn smooth(wavelengths: &Wavelengths, c: Color, fit: Fit) -> Spectrum {
     if largest <= 0.0 {
         return Spectrum::BLACK;
     }
-    let factor = 2.0 * largest;
+    let factor = HEADROOM * largest;
     let curve = Smooth::of(c.rgb.map(|v| v / factor));
     Spectrum::from_lanes(wavelengths.nm().map(|nm| factor * curve.at(nm)))
 }

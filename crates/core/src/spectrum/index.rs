@@ -2,7 +2,7 @@
 //!
 //! Sellmeier's equation `n² = 1 + sum of B λ² / (λ² - C)`, λ in µm. Glasses: Schott's catalogue; water at 20 °C: Daimon and
 //! Masumura 2007; fused silica: Malitson 1965; sapphire (ordinary ray): Malitson and Dodge 1972; diamond: Peter 1923.
-use super::Curve;
+use super::{Curve, HELIUM_D};
 
 /// Name, and pairs of `B` and `C` (µm²).
 type Sellmeier = (&'static str, &'static [(f64, f64)]);
@@ -68,6 +68,33 @@ pub fn index(name: &str, nm: f64) -> Option<f64> {
     Some(if name == "water" { n / AIR } else { n })
 }
 
+/// Fraunhofer's lines F and C, between which dispersion is measured, in nm.
+const LINES: [f64; 2] = [486.13, 656.27];
+
+impl Curve {
+    /// An index by Cauchy's equation `A + B / λ² + C / λ⁴`, λ in µm.
+    pub fn cauchy([a, b, c]: [f64; 3]) -> Self {
+        Self::of(|nm| {
+            let square = nm * nm * 1e-6;
+            a + b / square + c / (square * square)
+        })
+    }
+    /// An index that is `n_d` at helium's yellow line and disperses as much as Abbe's number `v` says, with Cauchy's first
+    /// two terms (KHR_materials_dispersion). No longer wavelength makes it less than 1 if it is not so there.
+    pub fn abbe(n_d: f64, v: f64) -> Self {
+        let term = |nm: f64| 1.0 / (nm * nm);
+        let rise = (n_d - 1.0) / (v * (term(LINES[0]) - term(LINES[1])));
+        let least = if n_d < 1.0 { 0.1 } else { 1.0 };
+        Self::of(|nm| (n_d + rise * (term(nm) - term(HELIUM_D))).max(least))
+    }
+}
+
+/// Abbe's number of an index that changes so and is `n_d` at helium's yellow line: `(n_d - 1) / (n_F - n_C)`.
+pub fn abbe_number(n_d: f64, curve: &Curve) -> f64 {
+    let [f, c] = LINES.map(|nm| f64::from(curve.at(nm as f32)));
+    (n_d - 1.0) / (f - c)
+}
+
 /// Its index over wavelengths.
 pub(super) fn index_curve(name: &str) -> Option<Curve> {
     index(name, 500.0)?;
@@ -97,6 +124,31 @@ mod tests {
                 assert!((got - f64::from(pair[1])).abs() < 2.5e-4, "{name} at {} nm: {got}", pair[0]);
             }
         }
+    }
+
+    #[test]
+    fn few_numbers_say_how_glass_disperses() {
+        // Schott's catalogue: BK7 has n_d = 1.5168 and V = 64.17, SF11 1.78472 and 25.68.
+        for (name, n_d, v) in [("glass-BK7", 1.516_8, 64.17), ("glass-SF11", 1.784_72, 25.68)] {
+            let measured = index_curve(name).expect("a curve");
+            assert!((abbe_number(n_d, &measured) / v - 1.0).abs() < 2e-3, "{name}");
+            let made = Curve::abbe(n_d, v);
+            assert!((abbe_number(n_d, &made) / v - 1.0).abs() < 1e-3, "{name}");
+            for nm in [450.0, 486.13, 587.6, 656.27, 700.0] {
+                let (found, expected) = (made.at(nm), measured.at(nm));
+                assert!(
+                    (found - expected).abs() < 0.1 * (measured.at(450.0) - expected).abs().max(0.02),
+                    "{name} {nm}"
+                );
+            }
+        }
+        // BK7 by Cauchy's equation, as textbooks have it.
+        let bk7 = Curve::cauchy([1.5046, 0.0042, 0.0]);
+        let measured = index_curve("glass-BK7").expect("a curve");
+        assert!([450.0, 550.0, 650.0].into_iter().all(|nm| (bk7.at(nm) - measured.at(nm)).abs() < 1e-3));
+        assert!((Curve::cauchy([1.5, 0.0, 0.01]).at(500.0) - 1.66).abs() < 1e-5);
+        let ends = Curve::abbe(1.33, 0.5).ends();
+        assert!(ends[0] == 1.0 && ends[1] > 2.0, "{ends:?}");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! primaries, and at 587.6 nm: metals as measured by Palik 1985 and Querry 1985, glasses as in their makers' catalogues.
 //! Illuminants are given by their CIE 1931 chromaticity (CIE 15:2004, tables T.3 and T.8; ACES: SMPTE ST 2065-1).
 use super::{
-    Color, Curve, HELIUM_D, LightColor,
+    Color, Curve, HELIUM_D, HUES, LightColor,
     illuminant::illuminant,
     index::{index, index_curve, index_names},
     metal::curve,
@@ -76,7 +76,7 @@ pub fn named(name: &str) -> Option<Named> {
     }
     if index_names().any(|known| known == name) {
         let [r, g, b, yellow] =
-            [611.4, 549.1, 464.2, HELIUM_D].map(|nm| index(name, nm).unwrap_or(1.0) as f32);
+            [HUES[0], HUES[1], HUES[2], HELIUM_D].map(|nm| index(name, nm).unwrap_or(1.0) as f32);
         return Some(Named { color: Color::new(r, g, b), number: yellow });
     }
     let (_, [x, y]) = ILLUMINANTS.iter().find(|n| n.0 == name)?;

@@ -19,6 +19,8 @@ pub struct Sampled {
 
 /// The wavelength for which indices of refraction are tabulated as `n_d`: the yellow line of helium, in nm.
 pub const HELIUM_D: f64 = 587.6;
+/// Dominant wavelengths of the primaries of Rec. 709, in nm: those that red, green and blue stand for.
+pub const HUES: [f64; 3] = [611.4, 549.1, 464.2];
 
 impl Sampled {
     /// From wavelength (nm) and value in turn.

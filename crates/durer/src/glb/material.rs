@@ -1,7 +1,8 @@
 //! Materials: `principled` with the extensions that the reader knows; other kinds as the nearest thing to them.
 use std::{collections::HashMap, sync::Arc};
 
-use durer_model::{light::AREA_LIGHTS, material::MATERIALS};
+use durer_core::spectrum::abbe_number;
+use durer_model::{Medium, light::AREA_LIGHTS, material::MATERIALS};
 use durer_scene::{Args, Data, Diagnostics, Node, ShapeDesc, TextureValue, ValueType, find};
 use serde_json::{Map, Value, json};
 
@@ -96,11 +97,11 @@ impl Writer<'_> {
                 made.pbr("metallicFactor", 0.0);
                 if kind == "dielectric" {
                     self.rough(made, &args, owner);
-                    made.extend("KHR_materials_volume", "thicknessFactor", 1.0.into());
+                    made.body(&mut args);
                 } else {
                     made.pbr("roughnessFactor", 0.0);
+                    made.extend("KHR_materials_ior", "ior", args.index("eta").into());
                 }
-                made.extend("KHR_materials_ior", "ior", args.index("eta").into());
                 made.extend("KHR_materials_transmission", "transmissionFactor", 1.0.into());
             }
             "conductor" | "coatedconductor" | "mirror" => {
@@ -153,8 +154,7 @@ impl Writer<'_> {
             made.pbr("roughnessFactor", 0.0);
             made.base(args.color("transmission").rgb);
             made.extend("KHR_materials_transmission", "transmissionFactor", 1.0.into());
-            made.extend("KHR_materials_volume", "thicknessFactor", 1.0.into());
-            made.extend("KHR_materials_ior", "ior", args.index("eta").max(1.0).into());
+            made.body(args);
             "glass"
         } else if mirrored > diffuse {
             made.pbr("metallicFactor", 1.0);
@@ -307,6 +307,17 @@ impl Made {
         self.pbr("roughnessFactor", 1.0);
         self.base(color);
         self.extend("KHR_materials_specular", "specularFactor", 0.0.into());
+    }
+
+    /// A body of glass, as it bends light; how that changes with wavelength is told by Abbe's number alone.
+    fn body(&mut self, args: &mut Args<'_>) {
+        let (eta, curve) = Medium::refraction(args);
+        self.extend("KHR_materials_volume", "thicknessFactor", 1.0.into());
+        self.extend("KHR_materials_ior", "ior", eta.max(1.0).into());
+        let abbe = curve.map_or(f64::INFINITY, |curve| abbe_number(eta.into(), &curve));
+        if abbe.is_finite() && abbe > 0.0 {
+            self.extend("KHR_materials_dispersion", "dispersion", ((20.0 / abbe) as f32).into());
+        }
     }
 
     pub(super) fn extend(&mut self, extension: &str, key: &str, value: Value) {

@@ -46,6 +46,9 @@ impl Writer<'_> {
             if let Some(distance) = args.optional_float("attenuationdistance") {
                 made.extend(volume, "attenuationDistance", distance.into());
             }
+            if args.is_set("dispersion") {
+                made.extend("KHR_materials_dispersion", "dispersion", args.float("dispersion").into());
+            }
         }
         if args.bool("energycompensation") {
             self.warn(format!("{owner}: energy compensation is not in the file"));

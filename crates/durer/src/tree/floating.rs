@@ -36,13 +36,14 @@ pub struct Scattered {
     pub sigma_a: Rgb,
     /// Scattering coefficient there, 1/m.
     pub sigma_s: Rgb,
-    /// How directions are drawn: `henyey-greenstein`.
+    /// How directions are drawn: `henyey-greenstein` or `waterdrops`.
     pub phase: String,
     /// Mean cosine of the deflection.
     pub g: Number,
 }
 
 pub(super) fn floating(scene: &Scene, basis: &Basis, event: &probe::Floating) -> Floating {
+    let phase = scene.volumes.get(event.volume as usize).map_or("", |volume| volume.phase().name());
     Floating {
         medium: scene.volume_names.get(event.volume as usize).cloned().unwrap_or_default(),
         weight: of_weight(basis, event.weight),
@@ -52,7 +53,7 @@ pub(super) fn floating(scene: &Scene, basis: &Basis, event: &probe::Floating) ->
             point: world(&scene.view, particle.p),
             sigma_a: of_weight(basis, particle.sigma_a),
             sigma_s: of_weight(basis, particle.sigma_s),
-            phase: "henyey-greenstein".to_owned(),
+            phase: phase.to_owned(),
             g: Number(particle.g),
         }),
     }

@@ -65,8 +65,9 @@ impl Kind for Classic {
                 ParamDefault::Bool(false),
                 "Multiplies reflection and transmission by Fresnel's shares instead of keeping them constant.",
             ),
-            ParamSpec::float("eta", 1.5, "Index of refraction inside, relative to the outside.")
-                .range(0.1, 10.0),
+            Medium::ETA,
+            Medium::CAUCHY,
+            Medium::DISPERSION,
             ParamSpec::new(
                 "gloss",
                 ParamType::Float,
@@ -96,10 +97,7 @@ impl Kind for Classic {
             exponent: args.float("exponent"),
             reflection: unless_black(share_input(args, "reflection")),
             transmission: unless_black(share_input(args, "transmission")),
-            medium: {
-                let eta = args.float("eta");
-                Medium::read(args, (eta, None))
-            },
+            medium: Medium::read(args),
             fresnel: args.bool("fresnel"),
             gloss: args.optional_float("gloss").unwrap_or(f32::INFINITY),
             translucency: args.optional_float("translucency").unwrap_or(f32::INFINITY),
@@ -137,7 +135,7 @@ impl Material for Classic {
                 true => Split::Fresnel { reflection, transmission },
                 false => Split::Constant { reflection, transmission },
             };
-            let interface = Interface { eta: self.medium.eta_d, split };
+            let interface = Interface { eta: self.medium.eta(&cx.basis), split };
             bsdf.add(match self.gloss.min(self.translucency).is_finite() {
                 true => Lobe::Blurred(Blurred { interface, blur: self.blur() }),
                 false => Lobe::Interface(interface),

@@ -1,6 +1,6 @@
 //! Glass or water, smooth or frosted: reflection and refraction, divided by Fresnel's equations.
 use durer_core::math::Vector3;
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Kind, Schema};
 
 use super::{Arriving, Material, Sent, detail::Detail, roughness::Roughness};
 use crate::{
@@ -23,14 +23,9 @@ impl Kind for Dielectric {
         aliases: &["glass"],
         doc: "Glass, water or the like, smooth or frosted: reflects and refracts as Fresnel's equations say.",
         params: &[
-            ParamSpec::new(
-                "eta",
-                ParamType::Index,
-                ParamDefault::Float(1.5),
-                "Index of refraction inside, relative to the outside; one that changes with wavelength splits light \
-                 into its colours where rays carry wavelengths.",
-            )
-            .range(0.1, 10.0),
+            Medium::ETA,
+            Medium::CAUCHY,
+            Medium::DISPERSION,
             Medium::PRIORITY,
             Medium::ABSORPTION,
             Medium::INSIDE,
@@ -43,9 +38,8 @@ impl Kind for Dielectric {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        let eta = args.refraction("eta");
         Some(Box::new(Self {
-            medium: Medium::read(args, eta),
+            medium: Medium::read(args),
             roughness: Roughness::read(args),
             detail: Detail::read(args),
         }))

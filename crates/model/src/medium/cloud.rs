@@ -4,7 +4,7 @@
 //! which is 1 at the top, and are 1 everywhere below.
 use durer_scene::{Args, Kind, ParamSpec, Schema};
 
-use super::{HenyeyGreenstein, Volume, glow::Glow, matter::Matter, uniformgrid::Size, volume::Field};
+use super::{Phase, Volume, glow::Glow, matter::Matter, uniformgrid::Size, volume::Field};
 use crate::texture::noise;
 
 /// The word `cloud`.
@@ -77,6 +77,7 @@ impl Kind for Cloud {
             Matter::SIGMA_A,
             Matter::SIGMA_S,
             Matter::G,
+            Phase::WHICH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -86,7 +87,7 @@ impl Kind for Cloud {
         let matter =
             Matter { sigma_a: args.color(Matter::SIGMA_A.name), sigma_s: args.color(Matter::SIGMA_S.name) };
         let wisps = Wisps { density, wispiness, frequency, corners };
-        let phase = HenyeyGreenstein::new(args.float(Matter::G.name));
+        let phase = Phase::read(args);
         args.is_sound().then(|| Volume::new(Field::Wisps(matter, wisps), Glow::DARK, phase).within(corners))
     }
 }

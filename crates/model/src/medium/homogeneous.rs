@@ -1,7 +1,7 @@
 //! The same everywhere: fog, milk, coloured water.
 use durer_scene::{Args, Kind, Schema};
 
-use super::{HenyeyGreenstein, Volume, glow::Glow, matter::Matter, volume::Field};
+use super::{Phase, Volume, glow::Glow, matter::Matter, volume::Field};
 
 /// The word `homogeneous`.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,7 @@ impl Kind for Homogeneous {
             Matter::SIGMA_S,
             Matter::SCALE,
             Matter::G,
+            Phase::WHICH,
             Glow::COLOR,
             Glow::SCALE,
         ],
@@ -26,7 +27,7 @@ impl Kind for Homogeneous {
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let matter = Matter::read(args);
         let glow = Glow::even(args.color(Glow::COLOR.name) * args.float(Glow::SCALE.name));
-        let phase = HenyeyGreenstein::new(args.float(Matter::G.name));
+        let phase = Phase::read(args);
         args.is_sound().then(|| Volume::new(Field::Even(matter), glow, phase))
     }
 }

@@ -18,6 +18,7 @@ mod matter;
 mod nanovdb;
 mod phase;
 mod preset;
+mod refraction;
 mod rgbgrid;
 mod uniformgrid;
 mod volume;
@@ -33,7 +34,7 @@ pub use self::{
     flight::{Draws, End, Flight, Passage},
     homogeneous::Homogeneous,
     nanovdb::NanoVdb,
-    phase::HenyeyGreenstein,
+    phase::{HenyeyGreenstein, Phase},
     rgbgrid::RgbGrid,
     uniformgrid::UniformGrid,
     volume::Volume,
@@ -136,8 +137,9 @@ impl Medium {
             Some(curve) => basis.leading(curve, self.eta_d),
         }
     }
-    /// Reads priority and absorption of a body of this index.
-    pub(crate) fn read(args: &mut Args<'_>, (eta, dispersion): (f32, Option<Curve>)) -> Self {
+    /// Reads index, priority and absorption of a body.
+    pub(crate) fn read(args: &mut Args<'_>) -> Self {
+        let (eta, dispersion) = Self::refraction(args);
         let priority = args.is_set(Self::PRIORITY.name).then(|| args.int(Self::PRIORITY.name));
         Self { dispersion, absorption: args.color(Self::ABSORPTION.name), priority, ..Self::clear(eta) }
     }

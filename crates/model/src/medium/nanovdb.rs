@@ -3,7 +3,7 @@ use durer_core::spectrum::Color;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    HenyeyGreenstein, Volume,
+    Phase, Volume,
     glow::{Glow, Heat},
     matter::Matter,
     volume::Field,
@@ -38,6 +38,7 @@ impl Kind for NanoVdb {
             Matter::SIGMA_S,
             Matter::SCALE,
             Matter::G,
+            Phase::WHICH,
             Heat::OFFSET,
             Heat::CUTOFF,
             Heat::SCALE,
@@ -46,7 +47,7 @@ impl Kind for NanoVdb {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let matter = Matter::read(args);
-        let phase = HenyeyGreenstein::new(args.float(Matter::G.name));
+        let phase = Phase::read(args);
         let names = args.grids("filename")?;
         let wanted = args.text("grid");
         if !names.iter().any(|name| name == wanted) {

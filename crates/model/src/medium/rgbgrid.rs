@@ -2,9 +2,7 @@
 use durer_core::spectrum::Color;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{
-    HenyeyGreenstein, Volume, glow::Glow, grid::Grid, matter::Matter, uniformgrid::Size, volume::Field,
-};
+use super::{Phase, Volume, glow::Glow, grid::Grid, matter::Matter, uniformgrid::Size, volume::Field};
 
 /// The word `rgbgrid`.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +74,7 @@ impl Kind for RgbGrid {
             Size::HIGH,
             Matter::SCALE,
             Matter::G,
+            Phase::WHICH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -94,7 +93,7 @@ impl Kind for RgbGrid {
         }
         let colored = Colored { sigma_a, sigma_s, scale: args.float(Matter::SCALE.name) };
         let glow = Glow::painted(sent, args.float(Glow::SCALE.name));
-        let phase = HenyeyGreenstein::new(args.float(Matter::G.name));
+        let phase = Phase::read(args);
         args.is_sound().then(|| Volume::new(Field::Colored(colored), glow, phase).within(corners))
     }
 }

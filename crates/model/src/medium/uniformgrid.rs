@@ -3,7 +3,7 @@ use durer_core::spectrum::Color;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
-    HenyeyGreenstein, Volume,
+    Phase, Volume,
     glow::{Glow, Heat},
     grid::{Grid, Mixed},
     matter::Matter,
@@ -87,6 +87,7 @@ impl Kind for UniformGrid {
             Matter::SIGMA_S,
             Matter::SCALE,
             Matter::G,
+            Phase::WHICH,
             Glow::COLOR,
             ParamSpec::new(
                 "Lescale",
@@ -123,7 +124,7 @@ impl Kind for UniformGrid {
             heat => Glow::even(Color::WHITE).hot(heat),
         };
         let glow = glow.scaled(scale);
-        let phase = HenyeyGreenstein::new(args.float("g"));
+        let phase = Phase::read(args);
         let Some(density) = density else {
             if args.is_sound() {
                 args.error("density", "\"density\" is empty");

@@ -7,7 +7,7 @@ use durer_core::{
 use durer_scene::Voxels;
 
 use super::{
-    HenyeyGreenstein,
+    HenyeyGreenstein, Phase,
     cloud::Wisps,
     glow::Glow,
     grid::{Grid, between},
@@ -36,7 +36,7 @@ pub(super) enum Field {
 pub struct Volume {
     field: Field,
     glow: Glow,
-    phase: HenyeyGreenstein,
+    phase: Phase,
     /// Bounds on the density, in the unit cube that the box becomes.
     majorants: Majorants,
     /// The box, in the medium's own space.
@@ -55,7 +55,7 @@ pub(super) struct Local {
 }
 
 impl Volume {
-    pub(super) fn new(field: Field, glow: Glow, phase: HenyeyGreenstein) -> Self {
+    pub(super) fn new(field: Field, glow: Glow, phase: Phase) -> Self {
         let majorants = match &field {
             Field::Even(_) | Field::Wisps(..) => Majorants::even(1.0),
             Field::Sparse(_, voxels) => Majorants::new(voxels.size, |span| voxels.most_in(span)),
@@ -75,7 +75,7 @@ impl Volume {
     /// One that is not there.
     pub fn nothing() -> Self {
         let matter = Matter { sigma_a: Color::BLACK, sigma_s: Color::BLACK };
-        Self::new(Field::Even(matter), Glow::DARK, HenyeyGreenstein::new(0.0))
+        Self::new(Field::Even(matter), Glow::DARK, Phase::HenyeyGreenstein(HenyeyGreenstein::new(0.0)))
     }
 
     /// In the box with these corners.
@@ -99,8 +99,8 @@ impl Volume {
     }
 
     /// How it scatters.
-    pub fn phase(&self) -> HenyeyGreenstein {
-        self.phase
+    pub fn phase(&self) -> &Phase {
+        &self.phase
     }
     /// True if it scatters anywhere.
     pub fn scatters(&self) -> bool {
@@ -162,7 +162,7 @@ impl Volume {
             | Field::Wisps(matter, _) => {
                 (basis.unbounded(matter.sigma_a) + basis.unbounded(matter.sigma_s)).max()
             }
-            Field::Colored(_) => 1.0,
+            Field::Colored(_) => basis.headroom(),
         }
     }
 }

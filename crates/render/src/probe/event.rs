@@ -74,7 +74,7 @@ pub struct Particle {
     pub sigma_a: Spectrum,
     /// Scattering coefficient there, 1/m.
     pub sigma_s: Spectrum,
-    /// Mean cosine of the deflection: that of the phase function of Henyey and Greenstein.
+    /// Mean cosine of the deflection.
     pub g: f32,
 }
 

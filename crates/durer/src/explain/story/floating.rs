@@ -1,4 +1,6 @@
 //! Sentences about what floats on the way of a ray.
+use durer_model::{Volume, medium::Phase};
+
 use crate::probe::{Floating, Particle, TreeNode};
 
 use super::{super::words::number, Teller};
@@ -22,7 +24,8 @@ impl Teller<'_> {
         let mut sentences = Vec::new();
         sentences.push(match floating.particle {
             Some(particle) => format!(
-                "It scatters light by the phase function of Henyey and Greenstein with g = {}; what comes counts times {}, which is the share that is left and scattered divided by the density of the place.",
+                "It scatters light {} with g = {}; what comes counts times {}, which is the share that is left and scattered divided by the density of the place.",
+                self.phase(floating),
                 number(f64::from(particle.g)),
                 self.lanes(floating.weight)
             ),
@@ -36,6 +39,13 @@ impl Teller<'_> {
             sentences.push(format!("\"{name}\" itself sends {}.", self.lanes(floating.sent)));
         }
         sentences
+    }
+
+    fn phase(&self, floating: &Floating) -> &'static str {
+        match self.prepared.scene.volumes.get(floating.volume as usize).map(Volume::phase) {
+            Some(Phase::Drops(_)) => "as drops of water do,",
+            _ => "by the phase function of Henyey and Greenstein",
+        }
     }
 
     fn medium(&self, floating: &Floating) -> String {

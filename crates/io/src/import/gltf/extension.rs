@@ -16,6 +16,7 @@ const READ: &[&str] = &[
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
@@ -35,7 +36,7 @@ const READ: &[&str] = &[
 const HARMLESS: &[&str] = &["KHR_xmp", "KHR_xmp_json_ld"];
 
 /// Not read: materials look simpler. A scene that only uses one is drawn without it.
-const LOOKS_ONLY: &[&str] = &["KHR_materials_dispersion", "KHR_materials_pbrSpecularGlossiness"];
+const LOOKS_ONLY: &[&str] = &["KHR_materials_pbrSpecularGlossiness"];
 
 /// Not read, and data is missing without them; with a way out.
 const REFUSED: &[(&str, &str)] = &[

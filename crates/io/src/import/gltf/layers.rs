@@ -76,6 +76,10 @@ impl<'a> Builder<'_, '_, 'a> {
                 let distance = self.ranged(Some(&own), "attenuationDistance", 1.0, POSITIVE)?;
                 self.put(|p| p.float("attenuationdistance", distance as f32));
             }
+            if let Some(own) = material.extension("KHR_materials_dispersion")? {
+                let dispersion = self.ranged(Some(&own), "dispersion", 0.0, POSITIVE)?;
+                self.put(|p| p.float("dispersion", dispersion as f32));
+            }
         }
         Ok(())
     }

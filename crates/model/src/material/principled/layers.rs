@@ -58,7 +58,7 @@ impl Layers {
             && self.body.is_none()
             && !self.compensates
     }
-    pub(super) const PARAMS: [ParamSpec; 20] = [
+    pub(super) const PARAMS: [ParamSpec; 21] = [
         ParamSpec::float_texture("specular", 1.0, "Strength of the dielectric part's reflection.")
             .range(0.0, 1.0),
         ParamSpec::color_texture("specularcolor", [1.0; 3], "Its colour at normal incidence.")
@@ -107,6 +107,7 @@ impl Layers {
         )
         .unit("m")
         .range(0.0, f32::INFINITY),
+        Medium::DISPERSION,
         ParamSpec::color(
             "attenuationcolor",
             [1.0; 3],
@@ -291,5 +292,7 @@ fn body(args: &mut Args<'_>) -> Option<Medium> {
         return None;
     }
     let absorption = distance.map_or(Color::BLACK, |d| color.map(|c| -ln(c.clamp(1e-6, 1.0)) / d));
-    Some(Medium { absorption, ..Medium::clear(args.float("eta")) })
+    let eta = args.float("eta");
+    let dispersion = Medium::dispersing(eta, args.float(Medium::DISPERSION.name));
+    Some(Medium { absorption, dispersion, ..Medium::clear(eta) })
 }

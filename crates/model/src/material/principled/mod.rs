@@ -238,7 +238,8 @@ impl Principled {
             bsdf.add(Lobe::PassThrough { weight: passing });
         }
         if entering > 0.0 {
-            let interface = Layers::boundary(self.eta, base, entering * coverage * below_top);
+            let eta = self.layers.body.as_ref().map_or(self.eta, |body| body.eta(&cx.basis));
+            let interface = Layers::boundary(eta, base, entering * coverage * below_top);
             bsdf.add(match facets.is_smooth() {
                 true => Lobe::Interface(interface),
                 false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),

@@ -88,15 +88,17 @@ impl<P: Probe> Follow<'_, P> {
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else {
             return Spectrum::BLACK;
         };
-        let f = met.volume.phase().density(ray.ray.d.dot(sample.wi));
+        let (phase, cos) = (met.volume.phase(), ray.ray.d.dot(sample.wi));
+        let f = phase.density(cos);
         let mis = sample.pdf.map_or(1.0, |pdf| share(pdf * chosen.chance, f));
-        let weight = met.weight * (f * mis / chosen.chance);
+        let scattered = met.weight * phase.tint(&cx.basis, cos);
+        let weight = scattered * (f * mis / chosen.chance);
         if weight.is_black() {
             return Spectrum::BLACK;
         }
         if P::RECORDS {
             let other_pdf = sample.pdf.map(|_| f);
-            let asked = Asked { chosen, sample, wi: sample.wi, f: met.weight * f, other_pdf, mis, weight };
+            let asked = Asked { chosen, sample, wi: sample.wi, f: scattered * f, other_pdf, mis, weight };
             self.report_light(&choosing, &asked, (1.0, u()));
         }
         let to_light = match sample.point {
@@ -115,17 +117,19 @@ impl<P: Probe> Follow<'_, P> {
         let sampler = parent.sampler.fork(SCATTER_BRANCH);
         let phase = met.volume.phase();
         let d = phase.deflected(parent.ray.d, sampler.d2(Dim::Scatter));
+        let cos = parent.ray.d.dot(d);
+        let weight = met.weight * phase.tint(&self.walk.cx.basis, cos);
         let ray = Ray { time: lit.time, ..Ray::new(met.p, d) };
         let mut child = PathRay {
-            density: Some(phase.density(parent.ray.d.dot(d))),
+            density: Some(phase.density(cos)),
             lit: *lit,
             is_blurred: true,
-            ..parent.child((met.p, ray), met.weight, SCATTER_BRANCH)
+            ..parent.child((met.p, ray), weight, SCATTER_BRANCH)
         };
         let kept = self.kept(&child);
         let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
         if P::RECORDS {
-            self.report_deflected(&sampler, &child, if u < kept { kept } else { 1.0 });
+            self.report_deflected((&sampler, phase.name()), &child, if u < kept { kept } else { 1.0 });
         }
         if u >= kept {
             if P::ACTIVE {

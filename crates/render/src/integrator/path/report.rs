@@ -133,11 +133,16 @@ impl<P: Probe> Follow<'_, P> {
     }
 
     /// How the ray came about that a particle sends on, which lives with probability `kept` and is announced next.
-    pub(super) fn report_deflected(&mut self, sampler: &Sampler, child: &PathRay, kept: f32) {
+    pub(super) fn report_deflected(
+        &mut self,
+        (sampler, phase): (&Sampler, &'static str),
+        child: &PathRay,
+        kept: f32,
+    ) {
         let u = sampler.d2(Dim::Scatter);
         self.walk.probe.chosen(&Choice {
             by: ChosenBy::Phase,
-            lobe: Some("henyey-greenstein"),
+            lobe: Some(phase),
             f: child.density.map(|pdf| child.weight * pdf),
             cos: Some(1.0),
             pdf: child.density,

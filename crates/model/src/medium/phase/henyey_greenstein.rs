@@ -1,13 +1,12 @@
-//! Directions after a particle: the phase function of Henyey and Greenstein ("Diffuse radiation in the Galaxy", 1941).
+//! The phase function of Henyey and Greenstein ("Diffuse radiation in the Galaxy", 1941).
 //!
 //! `p(cos) = (1 - g²) / (4 pi (1 + g² - 2 g cos)^(3/2))` for the cosine of the deflection, whose mean is `g`. It is drawn from
 //! exactly, so that what is drawn keeps its weight.
 use std::f32::consts::PI;
 
-use durer_core::math::{
-    Frame, Normal3, Point2, Vector3,
-    float::{cos, sin, sqr},
-};
+use durer_core::math::{Point2, Vector3, float::sqr};
+
+use super::turned;
 
 /// A phase function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,10 +40,7 @@ impl HenyeyGreenstein {
             let part = (1.0 - sqr(self.g)) / (1.0 - self.g + 2.0 * self.g * u.x);
             ((1.0 + sqr(self.g) - sqr(part)) / (2.0 * self.g)).clamp(-1.0, 1.0)
         };
-        let sine = (1.0 - sqr(cosine)).max(0.0).sqrt();
-        let azimuth = 2.0 * PI * u.y;
-        let local = Vector3::new(sine * cos(azimuth), sine * sin(azimuth), cosine);
-        Frame::from_z(Normal3::from(w)).to_world(local).normalize()
+        turned(w, cosine, u.y)
     }
 }
 
