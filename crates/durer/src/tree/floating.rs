@@ -44,7 +44,7 @@ pub struct Scattered {
 
 pub(super) fn floating(scene: &Scene, basis: &Basis, event: &probe::Floating) -> Floating {
     Floating {
-        medium: scene.volume_names.get(event.volume as usize).cloned().unwrap_or_default(),
+        medium: scene.fill_name(event.fill).to_owned(),
         weight: of_weight(basis, event.weight),
         sent: of_light(basis, event.sent),
         passed: Number(event.passed),

@@ -11,7 +11,7 @@ use durer_core::{
 };
 
 use super::{
-    Branch, BranchKind, Branches, Drawn, Draws, Facets, Interface, gloss, lobe::mirrored, refract,
+    Branch, BranchKind, Branches, Drawn, Draws, Facets, Interface, Lobe, gloss, lobe::mirrored, refract,
     scatter::OfLobe,
 };
 
@@ -39,6 +39,16 @@ pub struct Blurred {
     pub interface: Interface,
     /// How directions are spread.
     pub blur: Blur,
+}
+
+impl Lobe {
+    /// A boundary between two media whose facets are these.
+    pub fn boundary(interface: Interface, facets: Facets) -> Self {
+        match facets.is_smooth() {
+            true => Self::Interface(interface),
+            false => Self::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
+        }
+    }
 }
 
 impl Blurred {
@@ -234,7 +244,7 @@ impl Blurred {
 
     /// Whether the index is the same on both sides: microfacets of any direction let everything pass straight on, and a
     /// normal cannot be told from the directions it refracts between.
-    fn is_matched(&self) -> bool {
+    pub(super) fn is_matched(&self) -> bool {
         (self.interface.eta - 1.0).abs() < MATCHED
     }
 

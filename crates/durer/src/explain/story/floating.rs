@@ -39,6 +39,6 @@ impl Teller<'_> {
     }
 
     fn medium(&self, floating: &Floating) -> String {
-        self.prepared.scene.volume_names.get(floating.volume as usize).cloned().unwrap_or_default()
+        self.prepared.scene.fill_name(floating.fill).to_owned()
     }
 }

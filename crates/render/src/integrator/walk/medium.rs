@@ -58,7 +58,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         let scene = self.cx.scene;
         match bodies.present(&scene.media, &self.cx.basis).fill {
             Fill::Volume(number) if self.heeds_media => scene.volumes.get(number as usize),
-            Fill::Volume(_) | Fill::Nothing => None,
+            Fill::Volume(_) | Fill::Nothing | Fill::Below(_) => None,
         }
     }
 }
