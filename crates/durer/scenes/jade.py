@@ -51,37 +51,38 @@ points, triangles = cage()
 text = f"""# A trefoil of jade with a lamp behind it: light gets in at the back, walks at random among the crystals, which keep red and
 # blue, and leaves in front where the stone is thin. The ball is of marble, the egg of wax. Written by jade.py beside this
 # file.
-Film "rgb" "integer xresolution" 720 "integer yresolution" 720
+Film "rgb" "integer xresolution" 800 "integer yresolution" 720
 Sampler "zsobol" "integer pixelsamples" 64
 Integrator "path" "integer maxdepth" 6
 
-LookAt 0.25 1.6 -5.2  0.02 1.0 0  0 1 0
+LookAt 0.3 1.75 -5.4  0 1.04 0  0 1 0
 Camera "perspective" "float fov" 28
 
 WorldBegin
 
 LightSource "gradientsky" "string name" "evening"
-    "rgb zenith" [0.05 0.06 0.09] "rgb horizon" [0.03 0.03 0.04] "rgb ground" [0.01 0.01 0.01]
+    "rgb zenith" [0.03 0.04 0.06] "rgb horizon" [0.02 0.022 0.03] "rgb ground" [0.01 0.01 0.01]
 AttributeBegin
-    AreaLightSource "diffuse" "rgb L" [52 44 34]
+    AreaLightSource "diffuse" "rgb L" [46 33 20]
     Material "diffuse" "rgb reflectance" [0 0 0]
-    Shape "polygon" "string name" "lamp behind" "point3 P" [-1.1 2.9 2.6  1.3 2.9 2.6  1.3 1.9 3.4  -1.1 1.9 3.4]
+    Translate 0 1.16 0.62
+    Shape "sphere" "string name" "lamp" "float radius" 0.2
 AttributeEnd
 AttributeBegin
-    AreaLightSource "diffuse" "rgb L" [2.4 2.7 3.2]
+    AreaLightSource "diffuse" "rgb L" [3.2 3.6 4.2]
     Material "diffuse" "rgb reflectance" [0 0 0]
-    Shape "polygon" "string name" "window" "point3 P" [-4 1 -3  -4 3.4 -3  -3 3.4 -4.6  -3 1 -4.6]
+    Shape "polygon" "string name" "window" "point3 P" [-3 1 -4.6  -3 3.4 -4.6  -4 3.4 -3  -4 1 -3]
 AttributeEnd
 
 Material "coateddiffuse" "rgb reflectance" [0.05 0.03 0.02] "float roughness" 0.02
 Shape "bilinearmesh" "string name" "table" "point3 P" [-6 0 -6  -6 0 5  6 0 -6  6 0 5]
 
-MakeNamedMaterial "jade" "string type" "subsurface" "rgb reflectance" [0.34 0.72 0.42]
-    "rgb mfp" [0.05 0.07 0.05] "float g" 0.3 "float eta" 1.61 "float roughness" 0.004
-MakeNamedMaterial "marble" "string type" "subsurface" "string name" "Marble" "float scale" 22 "float eta" 1.5
-    "float roughness" 0.001
-MakeNamedMaterial "wax" "string type" "principled" "float subsurface" 1 "rgb basecolor" [0.93 0.62 0.36]
-    "rgb subsurfaceradius" [0.09 0.045 0.02] "float eta" 1.45 "float roughness" 0.42
+MakeNamedMaterial "jade" "string type" "subsurface" "rgb reflectance" [0.3 0.72 0.4]
+    "rgb mfp" [0.08 0.08 0.08] "float eta" 1.61 "float roughness" 0.004
+MakeNamedMaterial "marble" "string type" "subsurface" "rgb reflectance" [0.86 0.83 0.8]
+    "rgb mfp" [0.04 0.04 0.04] "float eta" 1.5 "float roughness" 0.001
+MakeNamedMaterial "wax" "string type" "principled" "float subsurface" 1 "rgb basecolor" [0.95 0.66 0.36]
+    "rgb subsurfaceradius" [0.02 0.02 0.02] "float eta" 1.45 "float roughness" 0.42
 
 NamedMaterial "jade"
 Shape "loopsubdiv" "string name" "trefoil" "integer levels" 2
@@ -91,15 +92,15 @@ Shape "loopsubdiv" "string name" "trefoil" "integer levels" 2
             {rows(points, 5, lambda c: f"{c:.4f}".rstrip("0").rstrip("."))}]
 AttributeBegin
     NamedMaterial "marble"
-    Translate -1.1 0.34 -0.35
-    Shape "sphere" "string name" "ball" "float radius" 0.34
+    Translate -0.98 0.3 -0.75
+    Shape "sphere" "string name" "ball" "float radius" 0.3
 AttributeEnd
 AttributeBegin
     NamedMaterial "wax"
-    Translate 1.12 0.36 -0.45
+    Translate 1.0 0.33 -0.7
     Rotate 24 0 0 1
-    Scale 0.85 1.2 0.85
-    Shape "sphere" "string name" "egg" "float radius" 0.31
+    Scale 0.85 1.15 0.85
+    Shape "sphere" "string name" "egg" "float radius" 0.3
 AttributeEnd
 """
 Path(__file__).with_name("jade.pbrt").write_text(text)

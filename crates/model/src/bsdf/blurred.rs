@@ -18,6 +18,9 @@ use super::{
 /// Indices that differ by less are equal: floats are too coarse for the microfacet normal between directions so close.
 const MATCHED: f32 = 1e-4;
 
+/// The width of facets below which lights are hardly ever found through them.
+const NARROW: f32 = 0.3;
+
 /// How directions are spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blur {
@@ -244,8 +247,16 @@ impl Blurred {
 
     /// Whether the index is the same on both sides: microfacets of any direction let everything pass straight on, and a
     /// normal cannot be told from the directions it refracts between.
-    pub(super) fn is_matched(&self) -> bool {
+    fn is_matched(&self) -> bool {
         (self.interface.eta - 1.0).abs() < MATCHED
+    }
+
+    /// Whether it hardly spreads what passes it.
+    pub(super) fn is_narrow(&self) -> bool {
+        match self.blur {
+            Blur::Microfacet(facets) => facets.alpha() < NARROW || self.is_matched(),
+            Blur::Cosine { .. } => false,
+        }
     }
 
     fn refracted(&self, wo: Vector3) -> Option<Vector3> {

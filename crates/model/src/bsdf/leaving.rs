@@ -1,6 +1,6 @@
-//! Light that was scattered below a smooth boundary and leaves it.
+//! Light that was scattered below a boundary and leaves it, where that is smooth or its facets are narrow.
 //!
-//! One direction below belongs to one above, and no light without extent would ever be found from there. As in pbrt-v4 what
+//! One direction below belongs to one above, or to few, and hardly any light would ever be found from there. As in pbrt-v4 what
 //! leaves is spread as an even light from below would be: `f = (1 - F(o)) (1 - F(i)) / (pi (1 - mean of F))`, with `F(o)` the
 //! reflectance below and `F(i)` that above. What is kept on the whole is as it would be; directions are those of even light.
 use std::f32::consts::FRAC_1_PI;

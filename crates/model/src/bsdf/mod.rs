@@ -145,14 +145,14 @@ impl Bsdf {
             }
         }
     }
-    /// Makes light that was scattered below leave smooth interfaces, seen from below along `wo`, in all directions.
+    /// Makes light that was scattered below leave interfaces, seen from below along `wo`, in all directions, unless they
+    /// blur it enough by themselves.
     pub fn leave(&mut self, wo: Vector3) {
         let mut all = Self { arriving: self.arriving, ..Self::default() };
         for lobe in self.lobes() {
             match lobe {
                 Lobe::Interface(interface) => interface.leave(wo, &mut all),
-                // Between equal indices facets do nothing.
-                Lobe::Blurred(blurred) if blurred.is_matched() => blurred.interface.leave(wo, &mut all),
+                Lobe::Blurred(blurred) if blurred.is_narrow() => blurred.interface.leave(wo, &mut all),
                 other => all.add(*other),
             }
         }
