@@ -148,7 +148,7 @@ mod tests {
                         break;
                     }
                     // Back in, by what was left of the way.
-                    (depth, cos) = (-depth, -cos);
+                    depth = -depth;
                 }
                 if random.unit() >= albedo {
                     alive = 0.0;
