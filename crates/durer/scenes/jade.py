@@ -81,7 +81,7 @@ MakeNamedMaterial "jade" "string type" "subsurface" "rgb reflectance" [0.3 0.72 
     "rgb mfp" [0.08 0.08 0.08] "float eta" 1.61 "float roughness" 0.004
 MakeNamedMaterial "marble" "string type" "subsurface" "rgb reflectance" [0.86 0.83 0.8]
     "rgb mfp" [0.04 0.04 0.04] "float eta" 1.5 "float roughness" 0.001
-MakeNamedMaterial "wax" "string type" "principled" "float subsurface" 1 "rgb basecolor" [0.95 0.66 0.36]
+MakeNamedMaterial "wax" "string type" "principled" "float subsurface" 1 "rgb basecolor" [0.95 0.56 0.24]
     "rgb subsurfaceradius" [0.02 0.02 0.02] "float eta" 1.45 "float roughness" 0.42
 
 NamedMaterial "jade"
