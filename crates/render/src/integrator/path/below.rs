@@ -82,26 +82,29 @@ impl<P: Probe> Follow<'_, P> {
         }
     }
 
-    /// The ray that leaves a surface on a side: one of a walk, if it starts one or goes on with one.
+    /// Makes a ray that leaves a surface on a side one of a walk, if it starts one or goes on with one.
+    ///
+    /// PERF: apart, as most scenes have no walks (bench render).
+    #[inline(never)]
     pub(super) fn below(
         &self,
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
-        (kind, mut child): (BranchKind, PathRay),
-    ) -> PathRay {
+        kind: BranchKind,
+        child: &mut PathRay,
+    ) {
         if kind == BranchKind::Reflection {
             child.walk_on(parent, false);
-            return child;
+            return;
         }
+        child.below = None;
         let cx = self.walk.cx;
-        let Fill::Below(material) = crossing.behind.present(&cx.scene.media, &cx.basis).fill else {
-            return PathRay { below: None, ..child };
-        };
+        let Fill::Below(material) = crossing.behind.present(&cx.scene.media, &cx.basis).fill else { return };
         let inside = cx.scene.materials[material as usize].inside(&cx.shade(), &s.surface.texture_at());
+        let Some(inside) = inside else { return };
         let off = s.surface.p_error;
         let least = 4.0 * NEAR * off.x.max(off.y).max(off.z);
-        let start = |inside| Below { inside, rays: 0, is_scattered: false };
-        let below = inside.map(|inside| start(inside.coarsened(least)));
-        PathRay { density: child.density.filter(|_| below.is_none()), below, ..child }
+        child.below = Some(Below { inside: inside.coarsened(least), rays: 0, is_scattered: false });
+        child.density = None;
     }
 }

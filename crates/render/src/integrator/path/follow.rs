@@ -277,9 +277,11 @@ impl<'a, P: Probe> Follow<'a, P> {
         let time = parent.ray.time;
         let weight = scattered.weight;
         if scattered.passes {
-            let on = straight_on(parent, (s, crossing), weight);
-            let kind = BranchKind::Transmission;
-            return if self.walks { self.below(parent, (s, crossing), (kind, on)) } else { on };
+            let mut on = straight_on(parent, (s, crossing), weight);
+            if self.walks {
+                self.below(parent, (s, crossing), BranchKind::Transmission, &mut on);
+            }
+            return on;
         }
         let d = s.frame.to_world(scattered.wi);
         // As in pbrt-v4, shading normals decide where spread directions go, whatever the true surface says: where they are
@@ -288,7 +290,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         let d = if keeps_side { s.keep_side(d, scattered.kind) } else { d };
         let ray: Ray = s.surface.spawn(d.normalize(), time);
         let spreads = scattered.pdf.is_some();
-        let child = PathRay {
+        let mut child = PathRay {
             media: crossing.media(scattered.kind),
             density: scattered.pdf,
             lit: *lit,
@@ -296,7 +298,10 @@ impl<'a, P: Probe> Follow<'a, P> {
             is_blurred: parent.is_blurred || spreads,
             ..parent.child((s.surface.p, ray), weight, SCATTER_BRANCH)
         };
-        if self.walks { self.below(parent, (s, crossing), (scattered.kind, child)) } else { child }
+        if self.walks {
+            self.below(parent, (s, crossing), scattered.kind, &mut child);
+        }
+        child
     }
 
     /// The probability with which a path goes on: what it carries, but for what the index of refraction does to radiance.
