@@ -63,6 +63,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/fog.pbrt"),
     },
     Builtin {
+        name: "jade",
+        doc: "a knot of jade before a lamp, whose light walks in it, with a ball of marble and an egg of wax",
+        text: include_str!("../scenes/jade.pbrt"),
+    },
+    Builtin {
         name: "snell",
         doc: "Snell's window: the sky from under water, and the floor mirrored around it",
         text: include_str!("../scenes/snell.pbrt"),

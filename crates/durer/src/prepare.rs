@@ -10,7 +10,7 @@ use durer_core::{
 use durer_io::import::Imported;
 use durer_model::{filter::Filter, light::Light};
 use durer_render::{
-    Scene,
+    Object, Scene,
     compile::{self, CompileOptions},
     drive::{Antialias, Job, Nesting, Settings},
     film::Tile,
@@ -122,6 +122,7 @@ pub(crate) fn prepared(
     let carried = options.carried.unwrap_or(of_film);
     check_antialias(options, &scene, (&*integrator, carried), diagnostics);
     check_particles(&scene, &*integrator, diagnostics)?;
+    check_walks(&scene, &*integrator, integrator_node, diagnostics);
     let settings = Settings {
         samples: eye.total,
         sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
@@ -264,6 +265,30 @@ fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut
         diagnostics.warning(Location::None, message).hint("give the plane an edge, or take \"bdpt\"");
     }
     Some(())
+}
+
+/// Says what is drawn as a matte body because the integrator does not follow light below its surface.
+fn check_walks(scene: &Scene, integrator: &dyn Integrator, node: &Node, diagnostics: &mut Diagnostics) {
+    let facts = integrator.facts();
+    if facts.walks || facts.output != Output::Radiance {
+        return;
+    }
+    let is_walked = |object: &&Object| scene.materials[object.material as usize].is_walked();
+    let mut names: Vec<&str> = Vec::new();
+    for object in scene.objects.iter().filter(is_walked) {
+        let name = scene.material_names[object.material as usize].as_str();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let Some((first, others)) = names.split_first() else { return };
+    let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
+    let message = format!(
+        "integrator \"{}\" does not follow light below surfaces: material \"{first}\"{more} is drawn as a matte body \
+         under a coat",
+        node.kind
+    );
+    diagnostics.warning(node.at.clone(), message).hint("take \"path\" or \"volpath\"");
 }
 
 /// Whether the camera has a lens or sees things for a while.

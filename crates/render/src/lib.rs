@@ -20,6 +20,6 @@ mod view;
 pub use light_sampler::{Chosen, LightSampler, Lit};
 pub use media::{ImbalanceTotals, Imbalances, Media, MediumStack};
 pub use pieces::{Form, Piece};
-pub use sample::{Contribution, PathRay, SampleCx, Splat, Value};
+pub use sample::{Below, Contribution, PathRay, SampleCx, Splat, Value};
 pub use scene::{Object, Scene};
 pub use view::{CameraPlacement, Sighted, View};

@@ -4,7 +4,7 @@ use durer_core::{
     sampling::Sampler,
     spectrum::{Basis, Spectrum},
 };
-use durer_model::ShadeCx;
+use durer_model::{ShadeCx, medium::Inside};
 
 use crate::{Imbalances, Lit, MediumStack, Scene};
 
@@ -22,6 +22,17 @@ impl<'a> SampleCx<'a> {
     pub fn shade(&self) -> ShadeCx<'a> {
         ShadeCx { basis: self.basis, textures: &self.scene.textures, log: None }
     }
+}
+
+/// A walk below a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Below {
+    /// What it walks in.
+    pub inside: Inside,
+    /// Rays of the walk before this one.
+    pub rays: u32,
+    /// It met a particle.
+    pub is_scattered: bool,
 }
 
 /// A ray with its place in the ray tree.
@@ -59,6 +70,8 @@ pub struct PathRay {
     pub from: Point3,
     /// The transparent bodies that the ray starts in.
     pub media: MediumStack,
+    /// What walk below a surface the ray belongs to, if it belongs to one.
+    pub below: Option<Below>,
     /// Metres since the last bounce: above 0 for rays that passed a surface which is not there.
     pub walked: f32,
     /// Such surfaces since the last bounce.
@@ -83,6 +96,7 @@ impl PathRay {
             is_collapsed: false,
             from: ray.o,
             media: MediumStack::default(),
+            below: None,
             walked: 0.0,
             passed: 0,
         }

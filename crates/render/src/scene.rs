@@ -11,7 +11,7 @@ use durer_core::{
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
-    Hull, Medium, Surface, Volume,
+    Fill, Hull, Medium, Surface, Volume,
     light::{Extent, Light},
     material::Material,
     shape::{Shape, ShapeHit, mesh_surface},
@@ -349,6 +349,22 @@ impl Scene {
         }
     }
 
+    /// The volume that fills a place, if one does.
+    pub fn volume_of(&self, fill: Fill) -> Option<&Volume> {
+        match fill {
+            Fill::Volume(number) => self.volumes.get(number as usize),
+            Fill::Nothing | Fill::Below(_) => None,
+        }
+    }
+    /// What floats somewhere, by name.
+    pub fn fill_name(&self, fill: Fill) -> &str {
+        let name = match fill {
+            Fill::Nothing => None,
+            Fill::Volume(number) => self.volume_names.get(number as usize),
+            Fill::Below(material) => self.material_names.get(material as usize),
+        };
+        name.map_or("", String::as_str)
+    }
     /// Whether an object is a transparent body.
     pub(crate) fn is_body(&self, object: Id<Object>) -> bool {
         self.medium_of(object).is_some_and(|id| self.media.get(id).hull == Hull::Body)

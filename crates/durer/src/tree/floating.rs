@@ -43,9 +43,10 @@ pub struct Scattered {
 }
 
 pub(super) fn floating(scene: &Scene, basis: &Basis, event: &probe::Floating) -> Floating {
-    let phase = scene.volumes.get(event.volume as usize).map_or("", |volume| volume.phase().name());
+    // Below surfaces light is scattered by the mean cosine.
+    let phase = scene.volume_of(event.fill).map_or("henyey-greenstein", |volume| volume.phase().name());
     Floating {
-        medium: scene.volume_names.get(event.volume as usize).cloned().unwrap_or_default(),
+        medium: scene.fill_name(event.fill).to_owned(),
         weight: of_weight(basis, event.weight),
         sent: of_light(basis, event.sent),
         passed: Number(event.passed),

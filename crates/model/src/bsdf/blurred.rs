@@ -11,12 +11,15 @@ use durer_core::{
 };
 
 use super::{
-    Branch, BranchKind, Branches, Drawn, Draws, Facets, Interface, gloss, lobe::mirrored, refract,
+    Branch, BranchKind, Branches, Drawn, Draws, Facets, Interface, Lobe, gloss, lobe::mirrored, refract,
     scatter::OfLobe,
 };
 
 /// Indices that differ by less are equal: floats are too coarse for the microfacet normal between directions so close.
 const MATCHED: f32 = 1e-4;
+
+/// The width of facets below which lights are hardly ever found through them.
+const NARROW: f32 = 0.3;
 
 /// How directions are spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +42,16 @@ pub struct Blurred {
     pub interface: Interface,
     /// How directions are spread.
     pub blur: Blur,
+}
+
+impl Lobe {
+    /// A boundary between two media whose facets are these.
+    pub fn boundary(interface: Interface, facets: Facets) -> Self {
+        match facets.is_smooth() {
+            true => Self::Interface(interface),
+            false => Self::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
+        }
+    }
 }
 
 impl Blurred {
@@ -236,6 +249,14 @@ impl Blurred {
     /// normal cannot be told from the directions it refracts between.
     fn is_matched(&self) -> bool {
         (self.interface.eta - 1.0).abs() < MATCHED
+    }
+
+    /// Whether it hardly spreads what passes it.
+    pub(super) fn is_narrow(&self) -> bool {
+        match self.blur {
+            Blur::Microfacet(facets) => facets.alpha() < NARROW || self.is_matched(),
+            Blur::Cosine { .. } => false,
+        }
     }
 
     fn refracted(&self, wo: Vector3) -> Option<Vector3> {

@@ -14,7 +14,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Bounced, Sheen, Under, coat::Body};
+use super::{Bounced, Leaving, Sheen, Under, coat::Body};
 
 /// A broad lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,8 @@ pub enum Matte {
     Bounced(Bounced),
     /// A body below layers that reflect.
     Under(Under),
+    /// What leaves a smooth boundary from below.
+    Leaving(Leaving),
 }
 
 /// `1/2 - 2 / (3 pi)` and `2/3 - 28 / (15 pi)`.
@@ -59,6 +61,7 @@ impl Matte {
             Self::Sheen(sheen) => Self::Sheen(Sheen { color: sheen.color * by, ..sheen }),
             Self::Bounced(bounced) => Self::Bounced(bounced.scaled(by)),
             Self::Under(under) => Self::Under(under.scaled(by)),
+            Self::Leaving(leaving) => Self::Leaving(leaving.scaled(by)),
         }
     }
     /// Value without the cosine, 1/sr.
@@ -73,6 +76,7 @@ impl Matte {
             Self::Sheen(sheen) => sheen.eval(wo, wi),
             Self::Bounced(bounced) => bounced.eval(wo, wi),
             Self::Under(under) => under.eval(wo, wi),
+            Self::Leaving(leaving) => leaving.eval(wi),
         }
     }
     /// Share of the light of a uniform sky that leaves towards `wo`.
@@ -86,6 +90,7 @@ impl Matte {
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.directional_albedo(wo),
             Self::Under(under) => under.albedo(),
+            Self::Leaving(leaving) => leaving.albedo(),
         }
     }
     /// Share of the light of a uniform sky that leaves: on the whole, or of what is below something else towards the viewer.
@@ -99,11 +104,12 @@ impl Matte {
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.albedo(),
             Self::Under(under) => under.albedo(),
+            Self::Leaving(leaving) => leaving.albedo(),
         }
     }
     /// Whether its light leaves on the side that it does not come from.
     pub(super) fn is_behind(&self) -> bool {
-        matches!(self, Self::Under(Under { is_behind: true, .. }))
+        matches!(self, Self::Under(Under { is_behind: true, .. }) | Self::Leaving(_))
     }
 }
 

@@ -21,6 +21,7 @@ mod hair;
 mod highlight;
 mod interface;
 mod layered;
+mod leaving;
 mod lobe;
 mod matte;
 mod phong;
@@ -53,6 +54,7 @@ pub use hair::{Hair, Strand};
 pub use highlight::Highlight;
 pub use interface::{Interface, Split};
 pub use layered::{Below, Cloud, Layered, mirrored_by_layers};
+pub use leaving::Leaving;
 pub use lobe::Lobe;
 pub use matte::Matte;
 pub use phong::Phong;
@@ -142,6 +144,19 @@ impl Bsdf {
                 interface.eta = if wo.z > 0.0 { far_over_near } else { 1.0 / far_over_near };
             }
         }
+    }
+    /// Makes light that was scattered below leave interfaces, seen from below along `wo`, in all directions, unless they
+    /// blur it enough by themselves.
+    pub fn leave(&mut self, wo: Vector3) {
+        let mut all = Self { arriving: self.arriving, ..Self::default() };
+        for lobe in self.lobes() {
+            match lobe {
+                Lobe::Interface(interface) => interface.leave(wo, &mut all),
+                Lobe::Blurred(blurred) if blurred.is_narrow() => blurred.interface.leave(wo, &mut all),
+                other => all.add(*other),
+            }
+        }
+        *self = all;
     }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {

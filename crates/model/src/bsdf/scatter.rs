@@ -13,7 +13,7 @@ use durer_core::{
 };
 use std::f32::consts::{FRAC_1_PI, PI};
 
-use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Facets, Lobe, Tilted};
+use super::{Blur, Blurred, BranchKind, Branches, Bsdf, Drawn, Facets, Lobe, Matte, Tilted};
 
 /// A direction that a path goes on in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -338,6 +338,7 @@ impl Lobe {
         match (self, kind) {
             (Self::Interface(interface), BranchKind::Transmission) => 1.0 / sqr(interface.eta_seen(wo)),
             (Self::Blurred(blurred), BranchKind::Transmission) => 1.0 / sqr(blurred.interface.eta_seen(wo)),
+            (Self::Matte(Matte::Leaving(leaving)), BranchKind::Transmission) => sqr(leaving.eta),
             _ => 1.0,
         }
     }

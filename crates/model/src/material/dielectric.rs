@@ -5,7 +5,7 @@ use durer_scene::{Args, Kind, Schema};
 use super::{Arriving, Material, Sent, detail::Detail, roughness::Roughness};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Blur, Blurred, Bsdf, Interface, Lobe, SMOOTH},
+    bsdf::{Bsdf, Interface, Lobe, SMOOTH},
 };
 
 /// An interface; the outside is where the normal points.
@@ -51,10 +51,7 @@ impl Material for Dielectric {
         self.detail.tilt(cx, surface, wo);
         let interface = Interface::clear(self.medium.eta(&cx.basis));
         let facets = self.roughness.facets(cx, surface);
-        Bsdf::default().with(match facets.is_smooth() {
-            true => Lobe::Interface(interface),
-            false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
-        })
+        Bsdf::default().with(Lobe::boundary(interface, facets))
     }
     fn medium(&self) -> Option<Medium> {
         Some(self.medium.clone())

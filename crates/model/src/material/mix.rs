@@ -9,8 +9,12 @@ use super::{MATERIALS, Material};
 use crate::{
     Medium, ShadeCx, Surface,
     bsdf::{Bsdf, Lobe},
+    medium::Inside,
     texture::TextureAt,
 };
+
+/// What is asked of a material at a place.
+type Asked<'a> = &'a dyn Fn(&dyn Material, &mut Surface) -> Bsdf;
 
 /// Two materials in one place.
 #[derive(Debug)]
@@ -66,12 +70,32 @@ impl Mix {
         }
     }
     /// The lobes of one of them; of a hole, that light goes on.
-    fn one(&self, which: usize, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn one(&self, which: usize, cx: &ShadeCx<'_>, surface: &mut Surface, of: Asked<'_>) -> Bsdf {
         let material = &self.materials[which];
         match material.has_holes() && material.is_hole(cx, &surface.texture_at()) {
             true => Bsdf::default().with(Lobe::PassThrough { weight: Spectrum::ONE }),
-            false => material.bsdf(cx, surface, wo),
+            false => of(&**material, surface),
         }
+    }
+    fn both(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, of: Asked<'_>) -> Bsdf {
+        let t = self.share(cx, &surface.texture_at());
+        if t == 0.0 || t == 1.0 {
+            return self.one(usize::from(t == 1.0), cx, surface, of);
+        }
+        let larger = usize::from(t > 0.5);
+        let as_it_was = *surface;
+        let main = self.one(larger, cx, surface, of);
+        let mut tilted = *surface;
+        let other = self.one(1 - larger, cx, &mut tilted, of);
+        let of_other = if larger == 1 { 1.0 - t } else { t };
+        if let Some(both) = main.mixed(&other, of_other) {
+            return both;
+        }
+        if number(wo, &as_it_was) >= of_other {
+            return main;
+        }
+        *surface = tilted;
+        other
     }
     fn any(&self, of: impl Fn(&dyn Material) -> bool) -> bool {
         self.materials.iter().any(|material| of(&**material))
@@ -90,24 +114,16 @@ fn number(wo: Vector3, surface: &Surface) -> f32 {
 
 impl Material for Mix {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
-        let t = self.share(cx, &surface.texture_at());
-        if t == 0.0 || t == 1.0 {
-            return self.one(usize::from(t == 1.0), cx, surface, wo);
-        }
-        let larger = usize::from(t > 0.5);
-        let as_it_was = *surface;
-        let main = self.one(larger, cx, surface, wo);
-        let mut tilted = *surface;
-        let other = self.one(1 - larger, cx, &mut tilted, wo);
-        let of_other = if larger == 1 { 1.0 - t } else { t };
-        if let Some(both) = main.mixed(&other, of_other) {
-            return both;
-        }
-        if number(wo, &as_it_was) >= of_other {
-            return main;
-        }
-        *surface = tilted;
-        other
+        self.both(cx, surface, wo, &|material, surface| material.bsdf(cx, surface, wo))
+    }
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.both(cx, surface, wo, &|material, surface| material.open_bsdf(cx, surface, wo))
+    }
+    fn is_walked(&self) -> bool {
+        self.any(|material| material.is_walked())
+    }
+    fn inside(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Option<Inside> {
+        self.materials.iter().find_map(|material| material.inside(cx, at))
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let t = self.share(cx, at);

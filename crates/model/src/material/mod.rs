@@ -20,6 +20,7 @@ mod phong;
 mod principled;
 mod roughness;
 mod sent;
+mod subsurface;
 mod thindielectric;
 
 use std::fmt::Debug;
@@ -43,15 +44,29 @@ pub use self::{
     phong::Phong,
     principled::Principled,
     sent::{Arriving, GlossRays, Sent},
+    subsurface::Subsurface,
     thindielectric::ThinDielectric,
 };
-use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
+use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, medium::Inside, texture::TextureAt};
 
 /// A material.
 pub trait Material: Debug + Send + Sync {
     /// Evaluates the textures at `surface` and returns the lobes by value. May tilt `surface.n_s` (normal maps).
     /// `wo` is the unit direction back along the ray.
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf;
+    /// The same for those who follow light below the surface, where it walks.
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.bsdf(cx, surface, wo)
+    }
+    /// True if light walks below the surface.
+    fn is_walked(&self) -> bool {
+        false
+    }
+    /// What light walks in that enters at a point.
+    fn inside(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Option<Inside> {
+        let _ = (cx, at);
+        None
+    }
     /// Radiance the surface emits by itself.
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let _ = (cx, at);
@@ -108,12 +123,13 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<DiffuseTransmission>(),
     Entry::of::<Phong>(),
     Entry::of::<Hair>(),
+    Entry::of::<Subsurface>(),
     Entry::of::<Mix>(),
     Entry::of::<Mask>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
-pub const NOT_YET: &[(&str, &str)] = &[("measured", "diffuse"), ("subsurface", "diffuse")];
+pub const NOT_YET: &[(&str, &str)] = &[("measured", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)

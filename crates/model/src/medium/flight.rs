@@ -18,7 +18,7 @@ use durer_core::{
     spectrum::{Basis, Spectrum},
 };
 
-use super::Volume;
+use super::{Volume, volume::Local};
 
 /// Shares below which chance ends a way to a light, and how often it does.
 const LITTLE: f32 = 0.05;
@@ -95,33 +95,10 @@ impl Volume {
         &self,
         (basis, lanes): (Basis, Spectrum),
         ray: &Ray,
-        (t0, t1): (f32, f32),
+        span: (f32, f32),
         draws: Draws<'_>,
     ) -> Flight {
-        let here = self.at(basis, ray.o);
-        let sigma_t = here.sigma_a + here.sigma_s;
-        let way = (t1 - t0).max(0.0);
-        let sent = match self.is_dark() {
-            true => Spectrum::BLACK,
-            // After an infinite way exp(-x) / x counts as 0, and 1 / sigma_t is left.
-            false if way.is_finite() => here.added * sigma_t.map(|s| way * mean_of_fading(s * way)),
-            false => here.added.zip(sigma_t, |added, s| if s > 0.0 { added / s } else { 0.0 }),
-        };
-        if !self.scatters() {
-            return Flight { end: End::Through, weight: left(sigma_t, way), lanes, passed: 1.0, sent };
-        }
-        let u = draws(0);
-        let t = -ln(1.0 - u.x) / lead(sigma_t, lanes, u.y);
-        if t < way {
-            let density = left(sigma_t, t) * sigma_t * lanes;
-            let weight = left(sigma_t, t) * here.sigma_s / density.mean();
-            let lanes = density / density.mean();
-            return Flight { end: End::Scattered(t0 + t), weight, lanes, passed: 1.0, sent };
-        }
-        let left = left(sigma_t, way);
-        let density = left * lanes;
-        let passed = density.mean();
-        Flight { end: End::Through, weight: left / passed, lanes: density / passed, passed, sent }
+        self.at(basis, ray.o).fly_evenly((self.scatters(), self.is_dark()), lanes, span, draws)
     }
 
     fn fly_by_chance(
@@ -215,6 +192,41 @@ impl Volume {
             }
         }
         share
+    }
+}
+
+impl Local {
+    /// Follows a ray where everything is as here, which `scatters` and is dark, or not.
+    pub(super) fn fly_evenly(
+        &self,
+        (scatters, is_dark): (bool, bool),
+        lanes: Spectrum,
+        (t0, t1): (f32, f32),
+        draws: Draws<'_>,
+    ) -> Flight {
+        let sigma_t = self.sigma_a + self.sigma_s;
+        let way = (t1 - t0).max(0.0);
+        let sent = match is_dark {
+            true => Spectrum::BLACK,
+            // After an infinite way exp(-x) / x counts as 0, and 1 / sigma_t is left.
+            false if way.is_finite() => self.added * sigma_t.map(|s| way * mean_of_fading(s * way)),
+            false => self.added.zip(sigma_t, |added, s| if s > 0.0 { added / s } else { 0.0 }),
+        };
+        if !scatters {
+            return Flight { end: End::Through, weight: left(sigma_t, way), lanes, passed: 1.0, sent };
+        }
+        let u = draws(0);
+        let t = -ln(1.0 - u.x) / lead(sigma_t, lanes, u.y);
+        if t < way {
+            let density = left(sigma_t, t) * sigma_t * lanes;
+            let weight = left(sigma_t, t) * self.sigma_s / density.mean();
+            let lanes = density / density.mean();
+            return Flight { end: End::Scattered(t0 + t), weight, lanes, passed: 1.0, sent };
+        }
+        let left = left(sigma_t, way);
+        let density = left * lanes;
+        let passed = density.mean();
+        Flight { end: End::Through, weight: left / passed, lanes: density / passed, passed, sent }
     }
 }
 

@@ -12,7 +12,9 @@ mod cloud;
 mod flight;
 mod glow;
 mod grid;
+mod halfspace;
 mod homogeneous;
+mod inside;
 mod majorant;
 mod matter;
 mod nanovdb;
@@ -32,7 +34,9 @@ use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 pub use self::{
     cloud::Cloud,
     flight::{Draws, End, Flight, Passage},
+    halfspace::HalfSpace,
     homogeneous::Homogeneous,
+    inside::Inside,
     nanovdb::NanoVdb,
     phase::{HenyeyGreenstein, Phase},
     rgbgrid::RgbGrid,
@@ -57,6 +61,8 @@ pub enum Fill {
     Nothing,
     /// The volume of this index in the scene.
     Volume(u32),
+    /// What the material of this index in the scene has below its surface: [`Inside`].
+    Below(u32),
 }
 
 /// What kind of surface is around a medium.

@@ -2,8 +2,8 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Below, Blur, Blurred, Bounced, Cloud, Coat, Facets, Gloss, Glossy, Hair, Highlight, Interface, Layered,
-    Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted, Under, Veil,
+    Below, Blur, Blurred, Bounced, Bsdf, Cloud, Coat, Facets, Gloss, Glossy, Hair, Highlight, Interface,
+    Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted, Under, Veil,
 };
 
 /// Grey of a value.
@@ -139,6 +139,7 @@ pub(super) fn spread() -> Vec<Lobe> {
             Below::Metal { eta: grey(0.2), k: grey(2.0), facets: round(0.0) },
             5,
         ),
+        leaving(1.5),
         Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
         Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
         Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
@@ -149,6 +150,14 @@ pub(super) fn spread() -> Vec<Lobe> {
         hair(0.3, [0.4, 0.7], -0.8),
         hair(1.2, [0.7, 0.35], 0.0),
     ]
+}
+
+/// What leaves a smooth body of this index, seen from below.
+fn leaving(eta: f32) -> Lobe {
+    let mut bsdf = Bsdf::default().with(Lobe::Interface(Interface::clear(eta)));
+    bsdf.leave(Vector3::new(0.6, 0.0, -0.8));
+    let found = bsdf.lobes().find(|lobe| matches!(lobe, Lobe::Matte(_))).copied();
+    found.unwrap_or(Lobe::Mirror { weight: Spectrum::ONE })
 }
 
 /// Lobes that do not.
@@ -186,6 +195,7 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Tilted(_) => 17,
         Lobe::Sheet(_) => 18,
         Lobe::Hair(_) => 19,
+        Lobe::Matte(Matte::Leaving(_)) => 20,
     }
 }
 
@@ -194,5 +204,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..20).collect::<Vec<_>>());
+    assert_eq!(here, (0..21).collect::<Vec<_>>());
 }

@@ -191,6 +191,12 @@ fn no_material_scatters_more_than_arrives() {
             // The table of the split sum is good to a percent.
             assert!(mean <= 1.0 + 4.0 * sigma + 0.012, "{name} {wo:?}: {mean} +- {sigma}");
             assert!(bsdf.albedo().max() <= 1.0 && bsdf.ambient().max() <= 1.001, "{name}");
+            if material.is_walked() {
+                let mut surface = place();
+                let open = material.open_bsdf(&CX, &mut surface, wo);
+                let (mean, sigma) = energy(&open, surface.frame().to_local(wo), count, &mut random);
+                assert!(mean <= 1.0 + 4.0 * sigma + 0.012, "{name} {wo:?}, open: {mean} +- {sigma}");
+            }
         }
     }
 }

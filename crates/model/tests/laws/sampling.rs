@@ -141,6 +141,8 @@ fn values_are_reciprocal_e5() {
             Lobe::Layered(_) => true,
             // Attenuated by what `wo` sees (Chiang and others 2016).
             Lobe::Hair(_) => true,
+            // Below one direction belongs to one above: only what is kept on the whole is right.
+            Lobe::Matte(durer_model::bsdf::Matte::Leaving(_)) => true,
             // About a normal of its own: see below.
             Lobe::Tilted(_) => true,
             _ => false,

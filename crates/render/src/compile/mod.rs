@@ -182,7 +182,7 @@ fn compiled(
         let material = placed.objects[index].material;
         (
             (material, shape.media),
-            sides::medium(shape, &*materials[material as usize], inside.get(material as usize)),
+            sides::medium(shape, (material, &*materials[material as usize]), inside.get(material as usize)),
         )
     }));
     let made = Made {

@@ -16,14 +16,15 @@ fn fill(medium: Option<MediumRef>) -> Fill {
 }
 
 /// What is behind the surface of a shape, and before it: what its material says, which has `inside` inside, and what the
-/// shape says itself.
+/// shape says itself. Below surfaces that light walks in there is nothing but what it walks in.
 pub(super) fn medium(
     shape: &ShapeDesc,
-    material: &dyn Material,
+    (number, material): (u32, &dyn Material),
     inside: Option<&Option<Fill>>,
 ) -> Option<Medium> {
+    let walked = material.is_walked().then_some(Fill::Below(number));
     let hull = if material.is_nothing() { Hull::Open } else { Hull::Sheet };
-    let inside = inside.copied().flatten();
+    let inside = walked.or(inside.copied().flatten());
     let own = match (material.medium(), inside) {
         (Some(own), inside) => Some(Medium { inside, ..own }),
         (None, Some(_)) => Some(Medium { inside, ..Medium::sides(hull) }),
@@ -31,7 +32,8 @@ pub(super) fn medium(
     };
     let Some(sides) = shape.media else { return own };
     let own = own.unwrap_or_else(|| Medium::sides(hull));
-    Some(Medium { inside: Some(fill(sides.inside)), outside: Some(fill(sides.outside)), ..own })
+    let inside = walked.unwrap_or_else(|| fill(sides.inside));
+    Some(Medium { inside: Some(inside), outside: Some(fill(sides.outside)), ..own })
 }
 
 impl Builder<'_> {

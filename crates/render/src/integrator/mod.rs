@@ -78,6 +78,8 @@ pub struct Facts {
     pub bounded: Option<GlossRays>,
     /// [`Transport::particles`].
     pub particles: Particles,
+    /// [`Transport::walks`].
+    pub walks: bool,
 }
 
 /// What is traced.
@@ -111,6 +113,10 @@ pub trait Transport: Send + Sync {
     /// What particles are to it.
     fn particles(&self) -> Particles {
         Particles::None
+    }
+    /// Whether it follows light below surfaces. If not it sees matte bodies there.
+    fn walks(&self) -> bool {
+        false
     }
     /// Traces a ray and all it spawns; leaves what arrives in `out`.
     fn trace<P: Probe>(
@@ -146,6 +152,7 @@ impl<T: Transport> Integrator for T {
             depth_limit: self.depth_limit(),
             bounded: self.bounded(),
             particles: self.particles(),
+            walks: self.walks(),
         }
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {

@@ -10,6 +10,7 @@ use durer_model::{
     Surface,
     bsdf::{BranchKind, Bsdf, Seen},
     light::{LightCx, LightHit, LightSample},
+    material::Material,
 };
 
 use crate::{Object, SampleCx, footprint::Onlooker};
@@ -56,6 +57,22 @@ pub(super) struct Lamp {
 impl Shading {
     /// The place where `ray`, of unit direction, hit; without `onlooker` textures are not filtered.
     pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit, onlooker: Option<Onlooker>) -> Self {
+        let bsdf = |m: &dyn Material, s: &mut Surface| m.bsdf(&cx.shade(), s, -ray.d);
+        Self::by(cx, (ray, hit), onlooker, bsdf)
+    }
+
+    /// The same for paths that follow light below the surface.
+    pub(super) fn open(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit, onlooker: Onlooker) -> Self {
+        let bsdf = |m: &dyn Material, s: &mut Surface| m.open_bsdf(&cx.shade(), s, -ray.d);
+        Self::by(cx, (ray, hit), Some(onlooker), bsdf)
+    }
+
+    fn by(
+        cx: &SampleCx<'_>,
+        (ray, hit): (&Ray, &Hit),
+        onlooker: Option<Onlooker>,
+        bsdf: impl FnOnce(&dyn Material, &mut Surface) -> Bsdf,
+    ) -> Self {
         let (object, mut surface) = cx.scene.surface(ray, hit);
         if let Some(onlooker) = onlooker.filter(|o| o.asks(cx.scene.filters)) {
             surface.footprint = onlooker.footprint(&cx.scene.view, ray, hit.t, &surface);
@@ -68,7 +85,7 @@ impl Shading {
         let material = cx.scene.material(object);
         let wo = -ray.d;
         let emission = material.emission(&cx.shade(), &surface.texture_at());
-        let bsdf = material.bsdf(&cx.shade(), &mut surface, wo);
+        let bsdf = bsdf(material, &mut surface);
         let frame = surface.frame();
         Self {
             object,

@@ -27,6 +27,8 @@ pub struct Media {
     of_object: Vec<Option<Id<Medium>>>,
     /// One of them is the inside of a body.
     bodies: bool,
+    /// Light walks in one of them.
+    walked: bool,
 }
 
 /// What fills a place.
@@ -55,7 +57,12 @@ impl Media {
         let of_object =
             objects.map(|(key, medium)| *known.entry(key).or_insert_with(|| medium.map(&mut number)));
         let of_object = of_object.collect();
-        Self { of_object, bodies: list.iter().any(|m| m.hull == Hull::Body), list }
+        Self {
+            of_object,
+            bodies: list.iter().any(|m| m.hull == Hull::Body),
+            walked: list.iter().any(|m| matches!(m.inside, Some(Fill::Below(_)))),
+            list,
+        }
     }
     /// True if nothing is transparent.
     pub fn is_empty(&self) -> bool {
@@ -64,6 +71,10 @@ impl Media {
     /// True if there are transparent bodies.
     pub(crate) fn has_bodies(&self) -> bool {
         self.bodies
+    }
+    /// True if light walks below some surface.
+    pub(crate) fn are_walked(&self) -> bool {
+        self.walked
     }
     /// The medium behind surfaces of an object.
     pub fn of_object(&self, object: Id<Object>) -> Option<Id<Medium>> {
@@ -107,7 +118,8 @@ impl MediumStack {
     }
     fn surround(&mut self, around: Fill) {
         self.around = match around {
-            Fill::Nothing => 0,
+            // Below surfaces nobody can say to be at the start.
+            Fill::Nothing | Fill::Below(_) => 0,
             Fill::Volume(number) => number as u16 + 1,
         };
     }

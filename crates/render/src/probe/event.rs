@@ -5,7 +5,7 @@ use durer_core::{
     sampling::Dim,
     spectrum::Spectrum,
 };
-use durer_model::bsdf::Bsdf;
+use durer_model::{Fill, bsdf::Bsdf};
 
 use crate::{MediumStack, Object};
 
@@ -51,8 +51,8 @@ pub struct Shaded<'a> {
 /// What was on the way of a ray among what floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floating {
-    /// The volume, by its number in the scene.
-    pub volume: u32,
+    /// What it is.
+    pub fill: Fill,
     /// What light from the end of the way is multiplied with: what is left of it, or scattered, by the density of this end.
     pub weight: Spectrum,
     /// What the volume sends out towards the start of the ray: part of its own light.

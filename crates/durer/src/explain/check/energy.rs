@@ -41,6 +41,9 @@ impl Checked<'_> {
                     sum + child.share(node) * if stands_for { 0.25 } else { 1.0 }
                 },
             );
+            // Lanes that get differently far in what floats share its rays: of them more or less than all arrives here.
+            let way = node.floating.as_ref().map_or(Spectrum::ONE, |floating| floating.weight);
+            let sum = sum.zip(way, |sum, way| if way > 0.0 { sum / way } else { sum });
             let most = lanes(sum).into_iter().fold(0.0, f64::max);
             if most > 1.0 + TOLERANCE {
                 let name = self.name(hit);

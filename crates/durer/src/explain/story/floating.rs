@@ -42,13 +42,13 @@ impl Teller<'_> {
     }
 
     fn phase(&self, floating: &Floating) -> &'static str {
-        match self.prepared.scene.volumes.get(floating.volume as usize).map(Volume::phase) {
+        match self.prepared.scene.volume_of(floating.fill).map(Volume::phase) {
             Some(Phase::Drops(_)) => "as drops of water do,",
             _ => "by the phase function of Henyey and Greenstein",
         }
     }
 
     fn medium(&self, floating: &Floating) -> String {
-        self.prepared.scene.volume_names.get(floating.volume as usize).cloned().unwrap_or_default()
+        self.prepared.scene.fill_name(floating.fill).to_owned()
     }
 }

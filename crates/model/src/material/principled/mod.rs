@@ -8,8 +8,9 @@
 //!
 //! `transmission` replaces that share of the body by a thin coloured sheet that light passes straight, or spread if it is
 //! rough (KHR_materials_transmission); with a `thickness` by a real body that refracts (KHR_materials_volume), rough if the surface
-//! is. Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0 there is a hole. `unlit`
+//! is. `subsurface` replaces a share by one in which light walks at random below the surface (`below.rs`). Coverage (`alphamode blend`) scales everything and lets the rest pass; where it is 0 there is a hole. `unlit`
 //! (KHR_materials_unlit) leaves nothing but the base colour, which the surface then emits.
+mod below;
 mod film;
 mod layers;
 
@@ -22,10 +23,12 @@ use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, P
 use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Blur, Blurred, Bounced, Bsdf, Glossy, Lobe, Matte, SMOOTH, Sheet, Under, normal_reflectance},
+    bsdf::{Bounced, Bsdf, Glossy, Interface, Lobe, Matte, SMOOTH, Sheet, Under, normal_reflectance},
+    medium::Inside,
     texture::TextureAt,
 };
 
+use below::Below;
 use layers::Layers;
 
 /// What the alpha channel means.
@@ -36,6 +39,13 @@ enum AlphaMode {
     Mask(f32),
     /// It is the share of the surface that is there.
     Blend,
+}
+
+/// Whether light is followed below the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Depth {
+    Flat,
+    Open,
 }
 
 /// The glTF material; what is seen of it looks the same from both sides.
@@ -57,14 +67,19 @@ pub struct Principled {
     unlit: bool,
     one_sided: bool,
     layers: Layers,
+    below: Option<Below>,
 }
 
 /// Parameters of the core and of the extensions.
-const PARAMS: [ParamSpec; CORE.len() + Layers::PARAMS.len()] = {
-    let mut all = [CORE[0]; CORE.len() + Layers::PARAMS.len()];
+const PARAMS: [ParamSpec; CORE.len() + Layers::PARAMS.len() + Below::PARAMS.len()] = {
+    let mut all = [CORE[0]; CORE.len() + Layers::PARAMS.len() + Below::PARAMS.len()];
     let mut i = 0;
     while i < all.len() {
-        all[i] = if i < CORE.len() { CORE[i] } else { Layers::PARAMS[i - CORE.len()] };
+        all[i] = match i {
+            _ if i < CORE.len() => CORE[i],
+            _ if i < CORE.len() + Layers::PARAMS.len() => Layers::PARAMS[i - CORE.len()],
+            _ => Below::PARAMS[i - CORE.len() - Layers::PARAMS.len()],
+        };
         i += 1;
     }
     all
@@ -130,6 +145,7 @@ impl Kind for Principled {
             _ => AlphaMode::Opaque,
         };
         let normal = args.is_set("normal").then(|| args.color_input("normal"));
+        let layers = Layers::read(args);
         Some(Box::new(Self {
             base: share_input(args, "basecolor"),
             alpha: args.float_input("alpha"),
@@ -143,7 +159,8 @@ impl Kind for Principled {
             normal,
             normal_scale: args.float("normalscale"),
             normal_frame: normal_frame(args),
-            layers: Layers::read(args),
+            below: Below::read(args, layers.body.is_some()),
+            layers,
             unlit: args.bool("unlit"),
             one_sided: args.bool("onesided"),
         }))
@@ -195,7 +212,13 @@ impl Principled {
 
 impl Principled {
     /// The lobes of a surface whose normal is settled; `smooth` is the one without normal map.
-    fn lit(&self, cx: &ShadeCx<'_>, (surface, smooth): (&Surface, Normal3), wo: Vector3) -> Bsdf {
+    fn lit(
+        &self,
+        cx: &ShadeCx<'_>,
+        (surface, smooth): (&Surface, Normal3),
+        wo: Vector3,
+        depth: Depth,
+    ) -> Bsdf {
         let at = surface.texture_at();
         let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
         let (base, coverage) = (self.base(cx, &at), self.share_there(cx, &at));
@@ -205,8 +228,16 @@ impl Principled {
         let local_wo = Frame::from_z(surface.n_s).to_local(wo);
         let veil = self.layers.veil(cx, (surface, smooth), wo);
         let below_top = veil.left(local_wo);
+        let walked = self.below.as_ref().map_or(0.0, |below| below.share(cx, &at));
+        if let (Some(below), Depth::Open, false) = (&self.below, depth, surface.is_outside(wo)) {
+            return Bsdf::default().with(Lobe::boundary(Interface::clear(below.eta()), facets));
+        }
         // What enters a real body does so through an interface of its own, beside the opaque rest.
-        let entering = if self.layers.body.is_some() { transmission * (1.0 - metallic) } else { 0.0 };
+        let (entering, tint) = match (&self.layers.body, depth) {
+            (Some(_), _) => (transmission * (1.0 - metallic), base),
+            (None, Depth::Open) => (walked * (1.0 - transmission) * (1.0 - metallic), Spectrum::ONE),
+            (None, Depth::Flat) => (0.0, Spectrum::ONE),
+        };
         let sheet = if self.layers.body.is_some() { 0.0 } else { transmission };
         let there = coverage * (1.0 - entering);
         let dielectric_f0 = Spectrum::splat(normal_reflectance(self.eta));
@@ -219,7 +250,13 @@ impl Principled {
         let (shine, shine_color) = self.layers.shine(cx, &at);
         let mut bsdf = Bsdf::default();
         if metallic < 1.0 {
-            bsdf.add(Lobe::Matte(Matte::Under(body(base, (1.0 - sheet) * (1.0 - shine)))));
+            let color = match &self.below {
+                Some(below) if depth == Depth::Flat => {
+                    base * (1.0 - walked) + below.color(cx, &at, base) * walked
+                }
+                _ => base,
+            };
+            bsdf.add(Lobe::Matte(Matte::Under(body(color, (1.0 - sheet) * (1.0 - shine)))));
         }
         bsdf.add(Lobe::Glossy(Glossy { reflectance, ..dielectric }));
         if shine > 0.0 && sheet < 1.0 {
@@ -239,11 +276,8 @@ impl Principled {
         }
         if entering > 0.0 {
             let eta = self.layers.body.as_ref().map_or(self.eta, |body| body.eta(&cx.basis));
-            let interface = Layers::boundary(eta, base, entering * coverage * below_top);
-            bsdf.add(match facets.is_smooth() {
-                true => Lobe::Interface(interface),
-                false => Lobe::Blurred(Blurred { interface, blur: Blur::Microfacet(facets) }),
-            });
+            let interface = Layers::boundary(eta, tint, entering * coverage * below_top);
+            bsdf.add(Lobe::boundary(interface, facets));
         }
         if self.layers.compensates
             && let Some(lost) = Bounced::of(&reflectance, &facets)
@@ -255,8 +289,9 @@ impl Principled {
     }
 }
 
-impl Material for Principled {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+impl Principled {
+    /// The lobes for those who follow light as deep.
+    fn lobes(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, depth: Depth) -> Bsdf {
         let (at, smooth) = (surface.texture_at(), surface.n_s);
         if let Some(map) = &self.normal {
             surface.n_s = self.tilted(cx, map, surface, wo);
@@ -265,7 +300,22 @@ impl Material for Principled {
             let passing = Spectrum::splat(1.0 - self.share_there(cx, &at));
             return Bsdf::default().with(Lobe::PassThrough { weight: passing });
         }
-        self.lit(cx, (surface, smooth), wo)
+        self.lit(cx, (surface, smooth), wo, depth)
+    }
+}
+
+impl Material for Principled {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.lobes(cx, surface, wo, Depth::Flat)
+    }
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+        self.lobes(cx, surface, wo, Depth::Open)
+    }
+    fn is_walked(&self) -> bool {
+        self.below.is_some() && !self.unlit
+    }
+    fn inside(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Option<Inside> {
+        self.below.as_ref().map(|below| below.inside(cx, at, self.base(cx, at)))
     }
     fn emission(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Spectrum {
         let coverage = self.share_there(cx, at);
@@ -320,9 +370,11 @@ impl Material for Principled {
         self.mode == AlphaMode::Blend || is_sheet
     }
     fn is_one_sided(&self) -> bool {
-        self.one_sided
+        // Walks meet it from behind.
+        self.one_sided && !self.is_walked()
     }
     fn medium(&self) -> Option<Medium> {
-        self.layers.body.clone().filter(|_| self.transmission != FloatInput::Constant(0.0))
+        let clear = self.layers.body.clone().filter(|_| self.transmission != FloatInput::Constant(0.0));
+        clear.or_else(|| self.below.as_ref().filter(|_| self.is_walked()).map(Below::medium))
     }
 }

@@ -67,6 +67,9 @@ impl<P: Probe> Follow<'_, P> {
             self.report_light(&choosing, &asked, (asked.wi.z.abs(), u()));
         }
         let mut path = self.walk.shadow_path(ray, (s, crossing), chosen.light, asked.weight, &sample);
+        if self.walks && self.is_below(&path.media) {
+            return radiance;
+        }
         if self.walk.heeds_media {
             path.density = Some(1.0 - asked.mis);
         }

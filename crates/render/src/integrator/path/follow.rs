@@ -23,7 +23,7 @@ use crate::{
     probe::{Choice, Limit, Probe, RayKind, StopReason, TreeNode},
 };
 
-/// Hits that are summed at once. Longer paths are summed in parts, the last first.
+/// PERF: hits of a path that are kept without asking for memory (bench render).
 const CHAIN: usize = 16;
 /// Scattered rays use this branch of the sampler, those that go straight on the next: each bounce has numbers of its own.
 pub(super) const SCATTER_BRANCH: u32 = 1 << 15;
@@ -54,12 +54,15 @@ impl Step {
 pub(super) struct Follow<'a, P: Probe> {
     pub(super) course: &'a Course,
     pub(super) walk: Walk<'a, P>,
+    /// Whether there are surfaces below which light is followed.
+    pub(super) walks: bool,
 }
 
 impl<'a, P: Probe> Follow<'a, P> {
     pub(super) fn new(course: &'a Course, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
         let heeds_media = course.heeds_media && !cx.scene.volumes.is_empty();
-        Self { course, walk: Walk { heeds_media, ..Walk::new(&course.rules, cx, probe) } }
+        let walks = !course.direct_only && cx.scene.media.are_walked();
+        Self { course, walk: Walk { heeds_media, ..Walk::new(&course.rules, cx, probe) }, walks }
     }
 
     /// Follows the path of an eye ray, which starts in the bodies that the camera is in.
@@ -90,21 +93,24 @@ impl<'a, P: Probe> Follow<'a, P> {
     /// Radiance arriving along a ray.
     fn trace(&mut self, ray: &PathRay, kind: RayKind, mut parent: P::Id) -> Spectrum {
         let mut links: [Option<Link<P::Id>>; CHAIN] = std::array::from_fn(|_| None);
+        let mut more: Vec<Link<P::Id>> = Vec::new();
         // PERF: one ray that becomes the next, instead of copies (bench render).
         let (mut ray, mut next) = (*ray, Some(kind));
         let mut radiance = Spectrum::BLACK;
-        for link in &mut links {
-            let Some(kind) = next else { break };
+        let mut count = 0;
+        while let Some(kind) = next {
             let id = self.walk.probe.ray(parent, &ray, kind);
             let step = self.step(&mut ray, id);
             let weight = step.next.map_or(Spectrum::BLACK, |_| ray.weight);
-            *link = Some(Link { id, radiance: step.radiance, weight });
+            let link = Link { id, radiance: step.radiance, weight };
+            match links.get_mut(count) {
+                Some(place) => *place = Some(link),
+                None => more.push(link),
+            }
+            count += 1;
             (parent, next) = (id, step.next);
         }
-        if let Some(kind) = next {
-            radiance = self.trace(&ray, kind, parent);
-        }
-        for link in links.iter().rev().flatten() {
+        for link in more.iter().rev().chain(links.iter().rev().flatten()) {
             radiance = link.radiance + link.weight * radiance;
             self.walk.probe.result(link.id, radiance);
         }
@@ -121,7 +127,7 @@ impl<'a, P: Probe> Follow<'a, P> {
             return Step::end(Spectrum::BLACK);
         }
         walk.rays += 1;
-        if walk.heeds_media {
+        if walk.heeds_media || ray.below.is_some() {
             return self.step_in_media(ray, id);
         }
         match walk.cx.scene.closest(walk.cx, &ray.ray, walk.probe, id) {
@@ -138,7 +144,11 @@ impl<'a, P: Probe> Follow<'a, P> {
         (flight, id): (Option<&Flight>, P::Id),
     ) -> Step {
         let walk = &mut self.walk;
-        let mut s = Shading::at(walk.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
+        let onlooker = Onlooker::of(ray, Habit::AsPbrt);
+        let mut s = match self.walks {
+            true => Shading::open(walk.cx, &ray.ray, hit, onlooker),
+            false => Shading::at(walk.cx, &ray.ray, hit, Some(onlooker)),
+        };
         walk.probe.surface(id, s.object, hit, &s.surface);
         let crossing = walk.cross(&ray.media, &mut s, hit.t);
         let mut arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
@@ -162,6 +172,7 @@ impl<'a, P: Probe> Follow<'a, P> {
             Boundary::Between(eta) => s.bsdf.set_eta(s.wo_local, eta),
             Boundary::Own => {}
         }
+        self.leave(ray, &mut s);
         if self.course.regularize && ray.is_blurred {
             s.bsdf.regularize();
         }
@@ -266,27 +277,36 @@ impl<'a, P: Probe> Follow<'a, P> {
         let time = parent.ray.time;
         let weight = scattered.weight;
         if scattered.passes {
-            return straight_on(parent, (s, crossing), weight);
+            let mut on = straight_on(parent, (s, crossing), weight);
+            if self.walks {
+                self.below(parent, (s, crossing), BranchKind::Transmission, &mut on);
+            }
+            return on;
         }
         let d = s.frame.to_world(scattered.wi);
         // As in pbrt-v4, shading normals decide where spread directions go, whatever the true surface says: where they are
         // wrong altogether, no light is lost that is there all around (the floor of buddha-fractal).
-        let d = if scattered.pdf.is_none() { s.keep_side(d, scattered.kind) } else { d };
+        let keeps_side = scattered.pdf.is_none() || self.is_walked(s);
+        let d = if keeps_side { s.keep_side(d, scattered.kind) } else { d };
         let ray: Ray = s.surface.spawn(d.normalize(), time);
         let spreads = scattered.pdf.is_some();
-        PathRay {
+        let mut child = PathRay {
             media: crossing.media(scattered.kind),
             density: scattered.pdf,
             lit: *lit,
             compression: parent.compression * scattered.compression,
             is_blurred: parent.is_blurred || spreads,
             ..parent.child((s.surface.p, ray), weight, SCATTER_BRANCH)
+        };
+        if self.walks {
+            self.below(parent, (s, crossing), scattered.kind, &mut child);
         }
+        child
     }
 
     /// The probability with which a path goes on: what it carries, but for what the index of refraction does to radiance.
     pub(super) fn kept(&self, child: &PathRay) -> f32 {
-        if child.depth <= self.course.roulette_depth {
+        if child.depth <= self.course.roulette_depth && child.below.is_none() {
             return 1.0;
         }
         let carried = child.throughput.max() / child.compression;

@@ -3,6 +3,7 @@
 //! `L = L_e + light of one lamp, chosen and sampled + weight * L(next ray)` (Kajiya 1986, "The Rendering Equation"). What
 //! both a sampled light and a sampled direction can find counts in proportion to their densities (balance heuristic, Veach
 //! and Guibas 1995). Paths that carry little end by chance and the others stand for them (Arvo and Kirk 1990).
+mod below;
 mod direct;
 mod follow;
 mod particle;
@@ -118,6 +119,9 @@ impl Kind for Direct {
 impl Transport for Path {
     fn depth_limit(&self) -> Option<u32> {
         Some(self.course.rules.max_depth)
+    }
+    fn walks(&self) -> bool {
+        !self.course.direct_only
     }
     fn trace<P: Probe>(
         &self,

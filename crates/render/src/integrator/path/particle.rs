@@ -8,7 +8,10 @@ use durer_core::{
     sampling::Dim,
     spectrum::Spectrum,
 };
-use durer_model::{Volume, light::LightCx, medium::End};
+use durer_model::{
+    light::LightCx,
+    medium::{End, Phase},
+};
 
 use super::{
     super::{
@@ -25,7 +28,7 @@ use crate::{
 
 /// A particle that a ray met.
 struct Met<'a> {
-    volume: &'a Volume,
+    phase: &'a Phase,
     p: Point3,
     /// What its light is multiplied with.
     weight: Spectrum,
@@ -36,25 +39,34 @@ impl<P: Probe> Follow<'_, P> {
     pub(super) fn step_in_media(&mut self, ray: &mut PathRay, id: P::Id) -> Step {
         let walk = &mut self.walk;
         let cx = walk.cx;
-        let hit = cx.scene.closest_boundary(cx, &ray.ray, walk.probe, id);
-        let Some(volume) = walk.volume(&ray.media) else {
-            return match hit {
-                Some(hit) => self.shade(ray, &hit, (None, id)),
-                None => Step::end(self.escape(ray, None, id)),
-            };
+        let hit = match walk.heeds_media {
+            true => cx.scene.closest_boundary(cx, &ray.ray, walk.probe, id),
+            false => cx.scene.closest(cx, &ray.ray, walk.probe, id),
         };
         let way = span(ray.from, &ray.ray, hit.map_or(f32::INFINITY, |hit| hit.t));
         let sampler = ray.sampler.fork(MEDIUM_BRANCH);
         let draws = |i| if i == 0 { sampler.d2(Dim::Medium) } else { sampler.fork(i).d2(Dim::Medium) };
-        let flight = volume.fly((cx.basis, ray.lanes), &ray.ray, way, &draws);
+        let below = ray.below.map(|below| (below, Phase::HenyeyGreenstein(below.inside.phase)));
+        let (flight, phase) = match (&below, walk.volume(&ray.media)) {
+            (Some((below, phase)), _) => (below.fly(cx.scene, ray, (way, hit.as_ref()), &draws), phase),
+            (None, Some(volume)) => {
+                (volume.fly((cx.basis, ray.lanes), &ray.ray, way, &draws), volume.phase())
+            }
+            (None, None) => {
+                return match hit {
+                    Some(hit) => self.shade(ray, &hit, (None, id)),
+                    None => Step::end(self.escape(ray, None, id)),
+                };
+            }
+        };
         if P::RECORDS {
-            self.report_floating((ray, volume), &flight, id);
+            self.report_floating(ray, &flight, id);
         }
         ray.lanes = flight.lanes;
         ray.density = ray.density.map(|density| density * flight.passed);
         match (flight.end, hit) {
             (End::Scattered(t), _) => {
-                let met = Met { volume, p: ray.ray.at(t), weight: flight.weight };
+                let met = Met { phase, p: ray.ray.at(t), weight: flight.weight };
                 self.scattered(ray, (&met, flight.sent), id)
             }
             (End::Through, Some(hit)) => self.shade(ray, &hit, (Some(&flight), id)),
@@ -69,7 +81,9 @@ impl<P: Probe> Follow<'_, P> {
             return Step::end(sent);
         }
         let lit = Lit { p: met.p, n: None, time: ray.ray.time };
-        let radiance = sent + self.light_at(ray, met, &lit, id);
+        // From below a surface no straight ray gets out.
+        let lamps = if ray.below.is_some() { Spectrum::BLACK } else { self.light_at(ray, met, &lit, id) };
+        let radiance = sent + lamps;
         Step { radiance, next: self.scatter_at(ray, met, &lit, id) }
     }
 
@@ -88,7 +102,7 @@ impl<P: Probe> Follow<'_, P> {
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else {
             return Spectrum::BLACK;
         };
-        let (phase, cos) = (met.volume.phase(), ray.ray.d.dot(sample.wi));
+        let (phase, cos) = (met.phase, ray.ray.d.dot(sample.wi));
         let f = phase.density(cos);
         let mis = sample.pdf.map_or(1.0, |pdf| share(pdf * chosen.chance, f));
         let scattered = met.weight * phase.tint(&cx.basis, cos);
@@ -115,7 +129,7 @@ impl<P: Probe> Follow<'_, P> {
     /// Puts the ray that a particle sends on in the place of the one that met it, if chance lets it.
     fn scatter_at(&mut self, parent: &mut PathRay, met: &Met<'_>, lit: &Lit, id: P::Id) -> Option<RayKind> {
         let sampler = parent.sampler.fork(SCATTER_BRANCH);
-        let phase = met.volume.phase();
+        let phase = met.phase;
         let d = phase.deflected(parent.ray.d, sampler.d2(Dim::Scatter));
         let cos = parent.ray.d.dot(d);
         let weight = met.weight * phase.tint(&self.walk.cx.basis, cos);
@@ -126,6 +140,7 @@ impl<P: Probe> Follow<'_, P> {
             is_blurred: true,
             ..parent.child((met.p, ray), weight, SCATTER_BRANCH)
         };
+        child.walk_on(parent, true);
         let kept = self.kept(&child);
         let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
         if P::RECORDS {

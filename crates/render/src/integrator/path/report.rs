@@ -5,7 +5,6 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::{
-    Fill, Volume,
     bsdf::Scattered,
     medium::{End, Flight},
 };
@@ -16,7 +15,7 @@ use super::{
     follow::Follow,
 };
 use crate::{
-    PathRay,
+    Below, PathRay,
     media::Crossing,
     probe::{
         Choice, ChosenBy, Floating, LightEvent, Limit, Particle, Probe, RandomNumbers, RayKind, StopReason,
@@ -116,20 +115,27 @@ impl<P: Probe> Follow<'_, P> {
     }
 
     /// What floats on the way of a ray, and the particle that it met.
-    pub(super) fn report_floating(&mut self, (ray, volume): (&PathRay, &Volume), flight: &Flight, id: P::Id) {
-        let scene = self.walk.cx.scene;
-        let Fill::Volume(number) = ray.media.present(&scene.media, &self.walk.cx.basis).fill else { return };
+    pub(super) fn report_floating(&mut self, ray: &PathRay, flight: &Flight, id: P::Id) {
+        let (scene, basis) = (self.walk.cx.scene, self.walk.cx.basis);
+        let fill = ray.media.present(&scene.media, &basis).fill;
         let at = |t| {
             let p = ray.ray.at(t);
-            let (sigma_a, sigma_s) = volume.coefficients(self.walk.cx.basis, p);
-            Particle { t, p, sigma_a, sigma_s, g: volume.phase().g() }
+            let (sigma_a, sigma_s, g) = match (&ray.below, self.walk.volume(&ray.media)) {
+                (Some(Below { inside, .. }), _) => (inside.sigma_a, inside.sigma_s, inside.phase.g()),
+                (None, Some(volume)) => {
+                    let (sigma_a, sigma_s) = volume.coefficients(basis, p);
+                    (sigma_a, sigma_s, volume.phase().g())
+                }
+                (None, None) => return None,
+            };
+            Some(Particle { t, p, sigma_a, sigma_s, g })
         };
         let particle = match flight.end {
-            End::Scattered(t) => Some(at(t)),
+            End::Scattered(t) => at(t),
             End::Through => None,
         };
         let Flight { weight, sent, passed, .. } = *flight;
-        self.walk.probe.floating(id, &Floating { volume: number, weight, sent, passed, particle });
+        self.walk.probe.floating(id, &Floating { fill, weight, sent, passed, particle });
     }
 
     /// How the ray came about that a particle sends on, which lives with probability `kept` and is announced next.

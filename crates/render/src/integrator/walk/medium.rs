@@ -4,7 +4,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use durer_model::{Fill, Volume};
+use durer_model::Volume;
 
 use super::{super::shading::Shading, Walk};
 use crate::{
@@ -56,10 +56,8 @@ impl<'a, P: Probe> Walk<'a, P> {
     /// What floats where a ray in these bodies is; `None` if that is nothing, or does not concern this integrator.
     pub(in super::super) fn volume(&self, bodies: &MediumStack) -> Option<&'a Volume> {
         let scene = self.cx.scene;
-        match bodies.present(&scene.media, &self.cx.basis).fill {
-            Fill::Volume(number) if self.heeds_media => scene.volumes.get(number as usize),
-            Fill::Volume(_) | Fill::Nothing => None,
-        }
+        let fill = bodies.present(&scene.media, &self.cx.basis).fill;
+        scene.volume_of(fill).filter(|_| self.heeds_media)
     }
 }
 

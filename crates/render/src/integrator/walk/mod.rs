@@ -21,7 +21,7 @@ use durer_model::texture::Habit;
 
 use super::{Start, shading::Shading};
 use crate::{
-    Contribution, Imbalances, PathRay, SampleCx, Value,
+    Below, Contribution, Imbalances, PathRay, SampleCx, Value,
     footprint::Onlooker,
     media::Boundary,
     probe::{Probe, RayKind, StopReason},
@@ -95,7 +95,8 @@ impl<'a, P: Probe> Walk<'a, P> {
     }
 
     pub(super) fn reason_to_stop(&self, ray: &PathRay) -> Option<StopReason> {
-        if ray.depth > self.rules.max_depth || ray.passed > MOST_PASSED {
+        let is_lost = |below: Below| below.rays > Below::MOST_RAYS;
+        if ray.depth > self.rules.max_depth || ray.passed > MOST_PASSED || ray.below.is_some_and(is_lost) {
             Some(StopReason::DepthLimit)
         } else if ray.depth > 0 && ray.throughput.max() * ray.siblings <= self.rules.min_contribution {
             Some(StopReason::ContributionBelowCutoff)

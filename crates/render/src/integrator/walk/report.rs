@@ -16,7 +16,7 @@ use super::{
     lights::{Aim, Extent},
 };
 use crate::{
-    PathRay,
+    Below, PathRay,
     media::Crossing,
     probe::{Choice, ChosenBy, LightEvent, Limit, Probe, RandomNumbers, RayKind, Shaded, StopReason},
 };
@@ -98,6 +98,10 @@ impl<P: Probe> Walk<'_, P> {
         let limit = match reason {
             StopReason::DepthLimit if ray.depth > rules.max_depth => {
                 Limit { value: ray.depth as f32, threshold: rules.max_depth as f32 }
+            }
+            StopReason::DepthLimit if ray.below.is_some_and(|b| b.rays > Below::MOST_RAYS) => {
+                let value = ray.below.map_or(0.0, |below| below.rays as f32);
+                Limit { value, threshold: Below::MOST_RAYS as f32 }
             }
             StopReason::DepthLimit => Limit { value: ray.passed as f32, threshold: MOST_PASSED as f32 },
             StopReason::ContributionBelowCutoff => {
