@@ -5,14 +5,18 @@
 //! and Guibas 1995). Paths that carry little end by chance and the others stand for them (Arvo and Kirk 1990).
 mod direct;
 mod follow;
+mod gather;
 mod particle;
 mod report;
+mod sppm;
 
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Integrator, LIGHT_SAMPLER, PATH_DEPTH, ROULETTE_DEPTH, Start, Transport, walk::Rules};
 use crate::{Contribution, LightSampler, SampleCx, probe::Probe};
 use follow::Follow;
+
+pub use sppm::Sppm;
 
 /// What a path integrator asks of the recursion.
 #[derive(Clone, Copy, Debug, PartialEq)]
