@@ -2,20 +2,20 @@
 from math import cos, pi, sin, sqrt
 
 # Metres along x and z, points along each.
-SIZE, POINTS = (3.6, 2.6), (33, 24)
+SIZE, POINTS = (3.1, 2.1), (32, 22)
 # Length in metres, direction in degrees, height, phase. The smaller ones fold light on the floor.
 WAVES = [
-    (1.30, 25, 0.0110, 0.3),
-    (0.95, -40, 0.0085, 2.1),
-    (0.72, 75, 0.0060, 4.4),
-    (0.55, 10, 0.0040, 1.2),
-    (0.48, -70, 0.0032, 5.6),
-    (0.60, 130, 0.0040, 3.3),
+    (1.30, 25, 0.0130, 0.3),
+    (0.95, -40, 0.0110, 2.1),
+    (0.72, 75, 0.0090, 4.4),
+    (0.55, 10, 0.0066, 1.2),
+    (0.48, -70, 0.0054, 5.6),
+    (0.60, 130, 0.0066, 3.3),
 ]
 
 
 def height(x, z):
-    """A sum of waves; a little ring where something fell in."""
+    """A sum of waves, and a ring around the ball that swims."""
     sum_ = 0.0
     for length, direction, high, phase in WAVES:
         a = direction * pi / 180

@@ -263,7 +263,8 @@ fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut
         }
     }
     let is_far = |light: &dyn Light| light.is_emitter() && (light.surrounds() || light.bounds().is_none());
-    if particles != Particles::Some && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light)) {
+    if particles != Particles::Some && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light))
+    {
         let message = format!(
             "particles from far away reach no further than {} m around what has an end: a plane is dark beyond",
             scene.extent.radius

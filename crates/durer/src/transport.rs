@@ -74,7 +74,8 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
     node = with_usual_depth(desc, node);
     if !desc.media.is_empty() && registered_word(&node.kind) != "volpath" {
         let names: Vec<_> = desc.media.iter().map(|medium| format!("\"{}\"", medium.name)).collect();
-        let message = format!("the integrator \"{}\" does not see the medium {}", node.kind, names.join(", "));
+        let message =
+            format!("the integrator \"{}\" does not see the medium {}", node.kind, names.join(", "));
         diagnostics.warning(node.at.clone(), message).hint("--integrator volpath heeds media");
     }
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);

@@ -48,8 +48,13 @@ pub struct Sparse {
 impl Growing {
     /// Nothing yet of a picture.
     pub fn new(job: &Job<'_>) -> Self {
-        let mut new =
-            Self { rendered: Rendered::new(job, Gather::Rays), first: 0, last: 0, left: Vec::new(), shared: None };
+        let mut new = Self {
+            rendered: Rendered::new(job, Gather::Rays),
+            first: 0,
+            last: 0,
+            left: Vec::new(),
+            shared: None,
+        };
         new.begin_pass(job);
         new
     }

@@ -37,7 +37,10 @@ pub(super) struct Shared {
 
 impl std::fmt::Debug for Shared {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Shared").field("sampler", &self.sampler).field("bytes", &self.bytes).finish_non_exhaustive()
+        f.debug_struct("Shared")
+            .field("sampler", &self.sampler)
+            .field("bytes", &self.bytes)
+            .finish_non_exhaustive()
     }
 }
 

@@ -53,9 +53,10 @@ impl Job<'_> {
                 };
                 Box::new(adaptive::places(self, &how, pixel).into_iter().map(start))
             }
-            None => Box::new((0..self.settings.samples).map(move |sample| {
-                self.of_pass(self.kept(sample).as_ref()).start(pixel, sample)
-            })),
+            None => Box::new(
+                (0..self.settings.samples)
+                    .map(move |sample| self.of_pass(self.kept(sample).as_ref()).start(pixel, sample)),
+            ),
         }
     }
 
@@ -77,9 +78,9 @@ impl Job<'_> {
 
     /// Takes the samples of a pixel, in their order, one at a time: whoever stops asking ends it.
     pub fn each_sample(&self, pixel: [u32; 2], gather: Gather) -> impl Iterator<Item = Taken> + '_ {
-        (0..).zip(self.starts(pixel)).map(move |(sample, start)| {
-            self.of_pass(self.kept(sample).as_ref()).taken(sample, start, gather)
-        })
+        (0..)
+            .zip(self.starts(pixel))
+            .map(move |(sample, start)| self.of_pass(self.kept(sample).as_ref()).taken(sample, start, gather))
     }
 
     /// Takes one sample of a pixel; `None` if the pixel does not have it.

@@ -6,8 +6,8 @@ use durer_core::{Id, math::Ray, spectrum::Spectrum};
 use durer_model::{Surface, texture::TextureLookup};
 
 use super::{
-    Choice, Clock, Detail, Floating, Gathered, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded, StopReason,
-    TreeHit, TreeMedia, TreeNode, TreeShading,
+    Choice, Clock, Detail, Floating, Gathered, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded,
+    StopReason, TreeHit, TreeMedia, TreeNode, TreeShading,
     walk::{self, Step},
 };
 use crate::{Object, PathRay, SampleCx};

@@ -196,7 +196,8 @@ impl<'a, P: Probe> Follow<'a, P> {
         let radiance = self.light(ray, (&s, &crossing), &lit, (id, emission));
         let next = self.scatter(ray, (&s, &crossing), &lit, id);
         // What goes straight on was not scattered here, and has the density of a bounce before.
-        self.has_gathered |= gathers && matches!(next, Some(RayKind::GlossyReflection | RayKind::GlossyRefraction));
+        self.has_gathered |=
+            gathers && matches!(next, Some(RayKind::GlossyReflection | RayKind::GlossyRefraction));
         Step { radiance, next }
     }
 

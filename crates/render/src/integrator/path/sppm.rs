@@ -62,7 +62,8 @@ impl Kind for Sppm {
         let roulette_depth = args.int("roulettedepth") as u32;
         let asked = args.int("photonsperiteration");
         if asked == 0 {
-            let message = "\"photonsperiteration\" is 0, expected 1 or more, or -1 for as many as there are pixels";
+            let message =
+                "\"photonsperiteration\" is 0, expected 1 or more, or -1 for as many as there are pixels";
             args.error("photonsperiteration", message);
             return None;
         }
