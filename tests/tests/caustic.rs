@@ -101,9 +101,9 @@ fn an_error_of_a_caustic_costs_particles_fewer_rays() {
         return;
     }
     let width = 48;
-    let reference = means(&caustic("bdpt", width, 4096));
-    let particles = means(&caustic("light", width, 4096));
-    let mut straight = caustic("light", width, 1024);
+    let reference = means(&caustic("bdpt", width, 1024));
+    let particles = means(&caustic("light", width, 1024));
+    let mut straight = caustic("light", width, 256);
     let node = durer::scene::Node::new("light", durer::scene::Params::new().int("maxdepth", 1));
     straight.integrator = durer::compile::integrator(&node, &mut Default::default()).expect("sound");
     let straight = means(&straight);
