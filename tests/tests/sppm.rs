@@ -76,6 +76,22 @@ fn e1_a_glowing_sphere_gives_a_geometric_series() {
     }
 }
 
+/// In a mirror the same walls have a bounce less to collect light by, whoever brings it.
+#[test]
+fn bounces_of_eye_and_photon_count_together() {
+    let view = format!("LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 30\n{BOX}");
+    let world = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n\
+        AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nReverseOrientation\nShape \"sphere\" AttributeEnd\n\
+        Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" 0\n\
+        Translate 0 0 0.5 Shape \"disk\" \"float radius\" 0.4";
+    let of = |integrator: &str| {
+        total(&means(&picture(&view, &format!("{integrator} \"integer maxdepth\" 2"), world, 128)))
+    };
+    let (path, found) =
+        (of("\"path\""), of("\"sppm\" \"float radius\" 0.3 \"integer photonsperiteration\" 1000"));
+    assert!((found / path - 1.0).abs() < 0.01, "{found}, expected {path}");
+}
+
 /// A pane, 0.4 m thick and 1 m above a dark floor, in the sun 40 degrees from its normal.
 fn under_a_pane(view: &str, integrator: &str, glass: &str, options: &Options) -> f64 {
     let corners = "\"point3 P\" [-4 1 -4  4 1 -4  4 1.4 -4  -4 1.4 -4  -4 1 4  4 1 4  4 1.4 4  -4 1.4 4]";
@@ -144,7 +160,8 @@ fn photons_have_the_wavelengths_of_their_pass() {
 }
 
 fn small(samples: u32) -> Prepared {
-    picture(AHEAD, "\"sppm\"", &format!("{LAMP}{THINGS}"), samples)
+    // Sent in three parts.
+    picture(AHEAD, "\"sppm\" \"integer photonsperiteration\" 9000", &format!("{LAMP}{THINGS}"), samples)
 }
 
 #[test]
