@@ -100,10 +100,10 @@ fn an_error_of_a_caustic_costs_particles_fewer_rays() {
         eprintln!("SKIPPED: an_error_of_a_caustic_costs_particles_fewer_rays: set DURER_SLOW=1");
         return;
     }
-    let width = 48;
-    let reference = means(&caustic("bdpt", width, 1024));
-    let particles = means(&caustic("light", width, 1024));
-    let mut straight = caustic("light", width, 256);
+    let width = 96;
+    let reference = means(&caustic("bdpt", width, 512));
+    let particles = means(&caustic("light", width, 512));
+    let mut straight = caustic("light", width, 128);
     let node = durer::scene::Node::new("light", durer::scene::Params::new().int("maxdepth", 1));
     straight.integrator = durer::compile::integrator(&node, &mut Default::default()).expect("sound");
     let straight = means(&straight);
@@ -112,14 +112,14 @@ fn an_error_of_a_caustic_costs_particles_fewer_rays() {
     let caustics: Vec<usize> = (0..reference.len()).filter(counts).collect();
     eprintln!("{} pixels of caustics on the table", caustics.len());
     let mut costs = Vec::new();
-    // Discs of 3 pixels are wider than the caustics here: 2 cm are those of the scene's own picture.
+    // Discs of 3 pixels are 10 cm wide in so small a picture, wider than the caustics.
     for (integrator, samples, radius) in [
-        ("path", 2048, None),
+        ("path", 1024, None),
         ("light", 64, None),
         ("bdpt", 64, None),
-        ("sppm", 64, Some(0.02)),
-        ("sppm", 512, Some(0.02)),
         ("sppm", 64, None),
+        ("sppm", 64, Some(0.05)),
+        ("sppm", 256, Some(0.05)),
     ] {
         let mut scene = caustic(integrator, width, samples);
         if let Some(radius) = radius {
@@ -142,7 +142,7 @@ fn an_error_of_a_caustic_costs_particles_fewer_rays() {
         );
         costs.push(square * rays);
     }
-    for cost in &costs[1..5] {
+    for cost in &costs[1..] {
         assert!(*cost < 0.1 * costs[0], "{costs:?}");
     }
 }
