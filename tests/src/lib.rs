@@ -80,7 +80,7 @@ pub const FILES: &[&str] = &[
 ];
 
 /// Whitted's integrator, Cook's in both ways to combine samples, ray casting, the paths, and particles, for small pictures.
-pub fn settings() -> [Options; 10] {
+pub fn settings() -> [Options; 11] {
     let of = |integrator: &str, distribution: Distribution| Options {
         integrator: Some(integrator.to_owned()),
         width: Some(64),
@@ -106,6 +106,7 @@ pub fn settings() -> [Options; 10] {
         of("direct", none),
         of("light", none),
         of("bdpt", none),
+        of("sppm", none),
         Options { max_depth: None, ..of("ambientocclusion", none) },
     ]
 }

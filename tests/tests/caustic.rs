@@ -92,6 +92,61 @@ fn as_much_light_goes_through_a_ball_as_fresnel_lets_pass() {
     }
 }
 
+/// What an error costs: the mean square of the relative error in the pixels of the caustics, times the rays of a pixel, which
+/// does not depend on the samples where there is no blur. Medians say what most pixels are like: docs/bidirectional.md.
+#[test]
+fn an_error_of_a_caustic_costs_particles_fewer_rays() {
+    if std::env::var_os("DURER_SLOW").is_none() {
+        eprintln!("SKIPPED: an_error_of_a_caustic_costs_particles_fewer_rays: set DURER_SLOW=1");
+        return;
+    }
+    let width = 96;
+    let reference = means(&caustic("bdpt", width, 512));
+    let particles = means(&caustic("light", width, 512));
+    let mut straight = caustic("light", width, 128);
+    let node = durer::scene::Node::new("light", durer::scene::Params::new().int("maxdepth", 1));
+    straight.integrator = durer::compile::integrator(&node, &mut Default::default()).expect("sound");
+    let straight = means(&straight);
+    let is_matte = |i: usize| (particles[i] / reference[i] - 1.0).abs() < 0.1;
+    let counts = |i: &usize| particles[*i] > 2.0 * straight[*i] + 0.05 && is_matte(*i);
+    let caustics: Vec<usize> = (0..reference.len()).filter(counts).collect();
+    eprintln!("{} pixels of caustics on the table", caustics.len());
+    let mut costs = Vec::new();
+    // Discs of 3 pixels are 10 cm wide in so small a picture, wider than the caustics.
+    for (integrator, samples, radius) in [
+        ("path", 1024, None),
+        ("light", 64, None),
+        ("bdpt", 64, None),
+        ("sppm", 64, None),
+        ("sppm", 64, Some(0.05)),
+        ("sppm", 256, Some(0.05)),
+    ] {
+        let mut scene = caustic(integrator, width, samples);
+        if let Some(radius) = radius {
+            let node =
+                durer::scene::Node::new(integrator, durer::scene::Params::new().float("radius", radius));
+            scene.integrator = durer::compile::integrator(&node, &mut Default::default()).expect("sound");
+        }
+        scene.settings.seed = 7;
+        let rendered = render(&scene);
+        let rays = rendered.rays as f64 / reference.len() as f64;
+        let found: Vec<f64> = rendered.film.pixels().iter().map(|p| p.mean()[1].into()).collect();
+        let mut off: Vec<f64> = caustics.iter().map(|&i| (found[i] / reference[i] - 1.0).abs()).collect();
+        let square = off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64;
+        off.sort_by(f64::total_cmp);
+        let median = off[off.len() / 2];
+        eprintln!(
+            "| {integrator} {radius:?} | {samples} | {rays:.0} | {median:.3} | {:.3} | {:.0} |",
+            square.sqrt(),
+            square * rays
+        );
+        costs.push(square * rays);
+    }
+    for cost in &costs[1..] {
+        assert!(*cost < 0.1 * costs[0], "{costs:?}");
+    }
+}
+
 /// How far caustics are off, and after how many samples of paths they still are: docs/benchmarks.md.
 #[test]
 fn paths_look_in_vain_for_what_particles_bring() {

@@ -39,3 +39,16 @@ fn each_lantern_is_left_by_its_distance() {
         before = distance;
     }
 }
+
+#[test]
+fn integrators_that_see_no_media_name_those_they_leave_out() {
+    for (integrator, says) in [("light", true), ("bdpt", true), ("sppm", true), ("volpath", false)] {
+        let mut imported = builtin::find("fog").expect("built in").import();
+        let options = Options { integrator: Some(integrator.to_owned()), ..Options::default() };
+        assert!(durer::prepare(&mut imported, &options).is_some());
+        let mut all = imported.diagnostics.iter();
+        let said =
+            all.any(|d| d.message.contains("does not see the medium") && d.message.contains("\"haze\""));
+        assert_eq!(said, says, "{integrator}");
+    }
+}

@@ -94,12 +94,14 @@ fn every_ray_and_all_that_follows_is_traced_again_from_what_it_holds() {
         let scene = builtin::find(name).expect("built in");
         for options in settings() {
             let scene = prepared(scene.import(), &options);
+            // What samples share is kept by the job.
+            let job = scene.job();
             for _ in 0..60 {
                 let pixel = [row.below(scene.scene.view.width), row.below(scene.scene.view.height)];
-                let (tree, _) = scene.job().record(pixel, row.below(scene.settings.samples));
+                let (tree, _) = job.record(pixel, row.below(scene.settings.samples));
                 // Of large trees not every part: that would be the square of the work.
                 for id in (0..tree.nodes.len() as u32).step_by(1 + tree.nodes.len() / 50) {
-                    let again = scene.job().replay(&tree, id);
+                    let again = job.replay(&tree, id);
                     let node = &tree.nodes[id as usize];
                     assert_eq!(again.is_some(), node.is_traced() || node.limit.is_some());
                     let Some(again) = again else { continue };

@@ -53,6 +53,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/caustic.pbrt"),
     },
     Builtin {
+        name: "pool",
+        doc: "the tiled floor of a pool under waves in the sun, found by photons",
+        text: include_str!("../scenes/pool.pbrt"),
+    },
+    Builtin {
         name: "cornell",
         doc: "the Cornell box with its published geometry, lit by the light in its ceiling",
         text: include_str!("../scenes/cornell.pbrt"),

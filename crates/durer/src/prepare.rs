@@ -12,7 +12,7 @@ use durer_model::{filter::Filter, light::Light};
 use durer_render::{
     Object, Scene,
     compile::{self, CompileOptions},
-    drive::{Antialias, Job, Nesting, Settings},
+    drive::{Antialias, Job, Nesting, Passes, Settings},
     film::Tile,
     integrator::{Integrator, Output, Particles, Show},
 };
@@ -75,7 +75,8 @@ impl Prepared {
     }
     /// What the driver takes.
     pub fn job(&self) -> Job<'_> {
-        Job { scene: &self.scene, integrator: &*self.integrator, settings: self.settings }
+        let (scene, integrator) = (&self.scene, &*self.integrator);
+        Job { scene, integrator, settings: self.settings, passes: Passes::default() }
     }
 }
 
@@ -214,6 +215,12 @@ fn check_antialias(
         diagnostics.warning(Location::None, message);
         return;
     }
+    if integrator.facts().gathering.is_some() {
+        let message = "adaptive antialiasing looks at each place once, and photons of one pass say little: pixels are \
+                       supersampled";
+        diagnostics.warning(Location::None, message);
+        return;
+    }
     if options.samples.is_some() {
         let message =
             "adaptive antialiasing takes as many samples as it needs: a number per pixel changes nothing";
@@ -228,12 +235,19 @@ fn check_antialias(
 
 /// Says what particles from the lights cannot bring; `None` if they are all there is and the camera sees none of them.
 fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut Diagnostics) -> Option<()> {
-    let are_all = match integrator.facts().particles {
-        Particles::None => return Some(()),
-        Particles::Some => false,
-        Particles::All => true,
-    };
-    if !scene.view.is_connectible() {
+    let particles = integrator.facts().particles;
+    if particles == Particles::None {
+        return Some(());
+    }
+    let are_all = particles == Particles::All;
+    if particles == Particles::Gathered {
+        if scene.view.shutter.is_rolling() {
+            let message = "integrator \"sppm\" cannot take this picture: with a rolling shutter each row has a moment of its \
+                           own, and photons lie where things are at one";
+            diagnostics.error(Location::None, message).hint("take \"bdpt\" or \"path\"");
+            return None;
+        }
+    } else if !scene.view.is_connectible() {
         let why = match scene.view.shutter.is_rolling() {
             true => "with a rolling shutter the row that sees it has a moment of its own",
             false => "no light can be traced to a camera of this kind",
@@ -245,9 +259,10 @@ fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut
         }
         diagnostics.note(Location::None, format!("particles are not joined to the camera: {why}"));
     }
-    let what = match are_all {
-        true => "what it lights stays dark",
-        false => "it is only found from the eye",
+    let what = match particles {
+        Particles::All => "what it lights stays dark",
+        Particles::Gathered => "only its straight light is found",
+        Particles::None | Particles::Some => "it is only found from the eye",
     };
     for (light, name) in scene.lights.iter().zip(&*scene.light_names) {
         if light.is_sampled() && !light.is_emitter() {
@@ -257,7 +272,8 @@ fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut
         }
     }
     let is_far = |light: &dyn Light| light.is_emitter() && (light.surrounds() || light.bounds().is_none());
-    if are_all && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light)) {
+    if particles != Particles::Some && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light))
+    {
         let message = format!(
             "particles from far away reach no further than {} m around what has an end: a plane is dark beyond",
             scene.extent.radius

@@ -73,8 +73,10 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
     }
     node = with_usual_depth(desc, node);
     if !desc.media.is_empty() && registered_word(&node.kind) != "volpath" {
-        let message = format!("the integrator \"{}\" ignores the media of the scene", node.kind);
-        diagnostics.note(node.at.clone(), message).hint("--integrator volpath heeds them");
+        let names: Vec<_> = desc.media.iter().map(|medium| format!("\"{}\"", medium.name)).collect();
+        let message =
+            format!("the integrator \"{}\" does not see the medium {}", node.kind, names.join(", "));
+        diagnostics.warning(node.at.clone(), message).hint("--integrator volpath heeds media");
     }
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     for (wish, name, ty, data) in wishes(options) {

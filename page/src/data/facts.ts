@@ -36,7 +36,7 @@ class Group {
 }
 
 export function facts(node: Node): Facts[] {
-  const used = new Set<string>(["light", "floating", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle", "left_out", "whole_id"]);
+  const used = new Set<string>(["light", "floating", "gathered", "media", "fresnel", "lobes", "drawn", "random", "textures", "limit", "tests", "walk", "triangle", "left_out", "whole_id"]);
   const group = (): Group => new Group(used, node);
   const all: Facts[] = [
     { title: "Radiance", open: true, facts: radiance(group()) },
@@ -73,6 +73,11 @@ function light(g: Group, node: Node): Fact[] {
     g.value("name", l.name).value("index", l.index).value("point on it", l.point, "m").value("visible", l.visible);
     g.facts.push({ name: "unoccluded", text: exact(l.unoccluded), rgb: l.unoccluded });
     if (l.passed) g.facts.push({ name: "passed", text: exact(l.passed), rgb: l.passed });
+  }
+  if (node.gathered) {
+    const { photons, radius, radiance } = node.gathered;
+    g.value("photons", photons).value("gathered within", radius, "m");
+    g.facts.push({ name: "of photons", text: exact(radiance), rgb: radiance });
   }
   return g.key("blocker").facts;
 }

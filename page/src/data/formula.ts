@@ -69,7 +69,7 @@ function lightArrives(node: Node): Formula | null {
 }
 
 function local(node: Node): Formula | null {
-  const named: [string, Rgb | null | undefined][] = [["emission", node.emission], ["ambient", node.ambient], ["sky, blurred", node.blurred_sky]];
+  const named: [string, Rgb | null | undefined][] = [["emission", node.emission], ["ambient", node.ambient], ["sky, blurred", node.blurred_sky], ["photons", node.gathered?.radiance]];
   const parts = named.filter((part): part is [string, Rgb] => !!part[1] && !isBlack(part[1]));
   if (parts.length === 0) return null;
   const total = parts.reduce((s, [, part]) => add(s, part), BLACK);

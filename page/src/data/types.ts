@@ -108,6 +108,8 @@ export interface Node {
   cos?: number | null;
   time?: number | null;
   floating?: Floating | null;
+  /** Light that photons brought. */
+  gathered?: { photons: number; radius: number; radiance: Rgb } | null;
   media?: { before?: Body[] | null; after?: Body[] | null; n1: number; n2: number } | null;
   fresnel?: { reflect: number; transmit: number; critical_angle?: number | null; tir: boolean; constant?: boolean | null; eta?: number | null } | null;
   lobes?: Lobe[] | null;

@@ -72,6 +72,12 @@ impl Sampler {
         self.count
     }
 
+    /// Index of the sample within its pixel, for the sampler of an eye ray.
+    #[inline]
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
     /// The sampler of a child ray: different numbers for every `branch` (mirror and transmitted ray, i-th of n rays).
     #[must_use]
     #[inline]

@@ -40,7 +40,7 @@ impl Look {
     pub(super) fn take(prepared: &Prepared) -> Self {
         let cast = Cast { show: Show::Depth };
         let settings = Settings { samples: 1, ..prepared.settings };
-        let job = Job { scene: &prepared.scene, integrator: &cast, settings };
+        let job = Job { scene: &prepared.scene, integrator: &cast, settings, passes: Default::default() };
         let places = places(prepared, LOOKS);
         let sight = |&pixel: &[u32; 2]| {
             let (tree, _) = job.record(pixel, 0);

@@ -37,6 +37,8 @@ pub enum PartKind {
     Gloss,
     /// What rays of surfaces without a main direction bring: light that other surfaces hand on.
     Bounce,
+    /// What photons brought to surfaces: light that other surfaces hand on.
+    Gathered,
     /// What rays about the refracted direction bring.
     Translucency,
     /// What rays that particles sent on bring.
@@ -73,6 +75,7 @@ impl Part {
             PartKind::Straight => "what shines straight through".to_owned(),
             PartKind::Gloss => "gloss rays about the mirror direction".to_owned(),
             PartKind::Bounce => "light that other surfaces hand on".to_owned(),
+            PartKind::Gathered => "light gathered from photons".to_owned(),
             PartKind::Translucency => "rays scattered through the surface".to_owned(),
             PartKind::Particles => "light that particles hand on".to_owned(),
         }
@@ -131,6 +134,7 @@ fn own(prepared: &Prepared, (basis, node): (&Basis, &TreeNode), is_cast: bool, p
             add(PartKind::Emission, Some(&object.name), shading.emission);
             add(PartKind::Ambient, None, shading.ambient);
             add(PartKind::BlurredSky, None, shading.blurred_sky);
+            add(PartKind::Gathered, None, node.gathered.map_or(Spectrum::BLACK, |event| event.radiance));
         }
         _ if node.stop == Some(StopReason::MissedScene) => add(PartKind::Sky, None, node.local),
         _ if node.light.is_some() => add(PartKind::Light, light_name(prepared, node), node.local),

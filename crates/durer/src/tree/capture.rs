@@ -14,6 +14,7 @@ use super::{
     document::{Lanes, Light, Limit, Node, Random, TestedBox, Tests, Tree, VERSION},
     drawn::drawn,
     floating::floating,
+    gathered::gathered,
     ghost::GhostScene,
     material,
     number::{Metres, Number, Place, Rgb, rgb},
@@ -238,6 +239,7 @@ fn node(prepared: &Prepared, basis: &Basis, id: usize, node: &TreeNode) -> Node 
         }),
         blocker: node.light.as_ref().and_then(|l| l.blocker).map(|b| scene.object(b).name.clone()),
         media: shading.and_then(|s| s.media.as_ref()).map(|m| material::media(scene, basis, m)),
+        gathered: node.gathered.as_ref().map(|event| gathered(basis, event)),
         floating: node.floating.as_ref().map(|event| floating(scene, basis, event)),
         fresnel: shading.and_then(|s| s.fresnel.as_ref()).map(material::fresnel),
         lobes: shading

@@ -11,6 +11,7 @@ use super::{
     cut::LeftOut,
     drawn::Drawn,
     floating::Floating,
+    gathered::Gathered,
     number::{Direction, Metres, Number, Place, Rgb},
 };
 
@@ -171,6 +172,9 @@ pub struct Node {
     /// What floats on the way; null where nothing does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floating: Option<Floating>,
+    /// Light that photons brought to the surface that was hit; null where none are gathered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gathered: Option<Gathered>,
     /// Reflection and refraction at the surface that was hit.
     pub fresnel: Option<Fresnel>,
     /// What the surface does with light.

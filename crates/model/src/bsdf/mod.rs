@@ -207,6 +207,30 @@ impl Bsdf {
             )
         })
     }
+    /// True if light from anywhere is scattered along `wo`: some lobe is matte, or rough from `alpha` =
+    /// [`Glossy::BLURRED`] on. Hair is not: what lies around a point of a strand is no surface.
+    pub fn is_broad(&self) -> bool {
+        let is_rough = |alpha: f32| alpha >= Glossy::BLURRED;
+        // Facets that are about as wide: Walter et al. 2007, section 5.2.
+        let is_wide = |exponent: f32| is_rough((2.0 / (exponent + 2.0)).sqrt());
+        self.lobes().any(|lobe| match lobe {
+            Lobe::Diffuse { .. } | Lobe::Matte(_) | Lobe::Behind { .. } => true,
+            Lobe::Layered(layered) => layered.look().is_none_or(|look| is_rough(look.facets.alpha())),
+            Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => is_rough(glossy.facets.alpha()),
+            Lobe::Sheet(sheet) => is_rough(sheet.glossy().facets.alpha()),
+            Lobe::Gloss(Gloss { exponent, .. }) | Lobe::Phong(Phong { exponent, .. }) => is_wide(*exponent),
+            Lobe::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => is_rough(facets.alpha()),
+            Lobe::Blurred(Blurred { blur: Blur::Cosine { reflection, transmission }, .. }) => {
+                is_wide(reflection.min(*transmission))
+            }
+            Lobe::Ambient { .. }
+            | Lobe::Highlight(_)
+            | Lobe::Mirror { .. }
+            | Lobe::Interface(_)
+            | Lobe::Hair(_)
+            | Lobe::PassThrough { .. } => false,
+        })
+    }
     /// Coefficient of the ambient term: diffuse albedo, or the ambient coefficient of a classic material.
     pub fn ambient(&self) -> Spectrum {
         let classic = |lobe: &Lobe| match lobe {

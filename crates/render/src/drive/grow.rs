@@ -3,11 +3,11 @@
 //!
 //! In the end the film has the bits of [`Job::render`]: passes of other lengths add the same samples in the same order.
 use std::sync::{
-    Mutex,
+    Arc, Mutex,
     atomic::{AtomicBool, Ordering},
 };
 
-use super::{Gather, Job, Pass, Rendered, TILE, TileDone, crew, lock};
+use super::{Gather, Job, Pass, Rendered, TILE, TileDone, crew, lock, shared::Shared};
 use crate::{
     Contribution,
     film::{BLOCK, Tile},
@@ -26,6 +26,8 @@ pub struct Growing {
     last: u32,
     /// Tiles that lack them.
     left: Vec<Tile>,
+    /// What they share.
+    shared: Option<Arc<Shared>>,
 }
 
 /// A look at the whole picture by one sample in the middle of each square of so many pixels.
@@ -46,8 +48,13 @@ pub struct Sparse {
 impl Growing {
     /// Nothing yet of a picture.
     pub fn new(job: &Job<'_>) -> Self {
-        let mut new =
-            Self { rendered: Rendered::new(job, Gather::Rays), first: 0, last: 0, left: Vec::new() };
+        let mut new = Self {
+            rendered: Rendered::new(job, Gather::Rays),
+            first: 0,
+            last: 0,
+            left: Vec::new(),
+            shared: None,
+        };
         new.begin_pass(job);
         new
     }
@@ -69,12 +76,14 @@ impl Growing {
 
     /// The next samples: one, one, two, then a few at once; never beyond a block.
     fn begin_pass(&mut self, job: &Job<'_>) {
-        let step = self.last.clamp(1, MOST_AT_ONCE);
+        let most = if job.integrator.facts().gathering.is_some() { 1 } else { MOST_AT_ONCE };
+        let step = self.last.clamp(1, most);
         let end_of_block = (self.last / BLOCK + 1) * BLOCK;
         self.first = self.last;
         self.last = (self.first + step).min(end_of_block).min(job.settings.samples);
         if self.last > self.first {
             self.left = job.window().squares(TILE);
+            self.shared = None;
         }
     }
 
@@ -86,9 +95,14 @@ impl Growing {
             if self.left.is_empty() {
                 self.begin_pass(job);
             }
+            if self.shared.is_none() {
+                self.shared = job.share(self.first, cancel);
+                self.rendered.rays += self.shared.as_ref().map_or(0, |shared| shared.rays);
+            }
             let stop = AtomicBool::new(false);
             let done = Mutex::new(Vec::new());
-            let pass = Pass { samples: self.first..self.last, gather: Gather::Rays, cancel };
+            let (samples, shared) = (self.first..self.last, self.shared.clone());
+            let pass = Pass { samples, gather: Gather::Rays, cancel, shared };
             job.pass(&pass, (&self.left, &stop), &mut self.rendered, |tile, _: &TileDone| {
                 lock(&done).push(tile);
                 if enough() || cancel.load(Ordering::Relaxed) {
@@ -166,6 +180,8 @@ impl Job<'_> {
         row.clear();
         let (view, window) = (&self.scene.view, self.window());
         let mut out = Contribution::default();
+        let shared = self.kept(0);
+        let job = self.of_pass(shared.as_ref());
         for x in 0..width {
             if cancel.load(Ordering::Relaxed) {
                 return false;
@@ -173,7 +189,7 @@ impl Job<'_> {
             let middle = |i: u32, end: u32| (i * edge + edge / 2).min(end - 1);
             let [px, py] = [middle(x, view.width), middle(y, view.height)];
             let inside = (window.x0..window.x1).contains(&px) && (window.y0..window.y1).contains(&py);
-            row.push(inside.then(|| self.value_of(&self.eye([px, py], 0).0, &mut out)).flatten());
+            row.push(inside.then(|| job.value_of(&job.eye([px, py], 0).0, &mut out)).flatten());
         }
         true
     }

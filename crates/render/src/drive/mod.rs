@@ -10,6 +10,7 @@ mod part;
 mod pass;
 mod record;
 mod settings;
+mod shared;
 mod survey;
 
 pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
@@ -17,10 +18,11 @@ pub use grow::{Growing, Sparse};
 pub use part::{PartCount, scattered};
 pub use record::KilledMap;
 pub use settings::{Nesting, Settings};
+pub use shared::Passes;
 pub use survey::Taken;
 
 use std::sync::{
-    Mutex,
+    Arc, Mutex,
     atomic::{AtomicBool, Ordering},
 };
 
@@ -36,6 +38,7 @@ use crate::{
     probe::Counters,
 };
 use pass::Eye;
+use shared::Shared;
 
 /// Edge of a tile in pixels.
 const TILE: u32 = 32;
@@ -111,6 +114,8 @@ struct Pass<'a> {
     samples: std::ops::Range<u32>,
     gather: Gather,
     cancel: &'a AtomicBool,
+    /// What these samples share.
+    shared: Option<Arc<Shared>>,
 }
 
 impl Pass<'_> {
@@ -127,20 +132,23 @@ pub struct Job<'a> {
     pub integrator: &'a dyn Integrator,
     /// Samples, seed, threads, crop.
     pub settings: Settings,
+    /// What samples share.
+    pub passes: Passes<'a>,
 }
 
 impl<'a> Job<'a> {
     /// The context of a sample of which this is the first sampler.
     #[inline]
     fn cx(&self, sampler: &Sampler) -> SampleCx<'a> {
-        SampleCx { scene: self.scene, basis: self.settings.carried.basis(|| sampler.d1(Dim::Lambda)) }
+        let own = || self.settings.carried.basis(|| sampler.d1(Dim::Lambda));
+        SampleCx { scene: self.scene, basis: self.passes.basis().unwrap_or_else(own) }
     }
 
     /// The eye ray of a sample, and what the sample counts in the pixel.
     fn eye(&self, pixel: [u32; 2], sample: u32) -> (Eye, f32) {
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, pixel, sample, s.samples);
-        pass::eye_ray(&self.scene.view, s.nesting, pixel, &sampler)
+        pass::eye_ray((&self.scene.view, s.nesting), pixel, &sampler, self.passes.sampler())
     }
 
     /// Traces an eye ray; what the film stores of it, `None` if it has no value, as data where nothing was hit.
@@ -165,11 +173,12 @@ impl<'a> Job<'a> {
         eye.gain == 0.0 && self.integrator.facts().output == Output::Radiance
     }
 
-    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, and four
-    /// wavelengths are no colour that could be compared.
+    /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, four
+    /// wavelengths are no colour that could be compared, and all places would share the photons of one pass.
     fn adaptive(&self) -> Option<Adaptive> {
         match (self.settings.antialias, self.integrator.facts().output) {
             _ if self.settings.carried == Carried::Wavelengths => None,
+            _ if self.integrator.facts().gathering.is_some() => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,
         }
@@ -203,8 +212,11 @@ impl<'a> Job<'a> {
             return rendered;
         }
         let tiles = self.window().squares(TILE);
-        for (first, last) in pass::passes(self.settings.samples) {
-            let pass = Pass { samples: first..last, gather, cancel };
+        let at_once = if self.integrator.facts().gathering.is_some() { 1 } else { BLOCK };
+        for (first, last) in pass::passes(self.settings.samples, at_once) {
+            let shared = self.share(first, cancel);
+            rendered.rays += shared.as_ref().map_or(0, |shared| shared.rays);
+            let pass = Pass { samples: first..last, gather, cancel, shared };
             let finished = |_, done: &TileDone| progress.advance(done.samples, done.rays);
             self.pass(&pass, (&tiles, cancel), &mut rendered, finished);
             if cancel.load(Ordering::Relaxed) {
@@ -230,7 +242,7 @@ impl<'a> Job<'a> {
         let shared = Mutex::new(rendered);
         crew::share_out(tiles, self.settings.threads, enough, |tile, pixels: &mut Vec<Pixel>| {
             lock(&shared).film.read(tile, pixels);
-            let done = self.tile(pass, tile, pixels);
+            let done = self.of_pass(pass.shared.as_ref()).tile(pass, tile, pixels);
             let mut shared = lock(&shared);
             shared.film.write(tile, pixels);
             shared.take(self, &done);

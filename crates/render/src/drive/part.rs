@@ -59,9 +59,11 @@ impl Job<'_> {
         let mut own = PartCount { pixels: 1, samples: self.settings.samples.into(), ..PartCount::default() };
         let start = Instant::now();
         for sample in 0..self.settings.samples {
-            let (eye, _) = self.eye(pixel, sample);
-            if !self.is_blocked(&eye) {
-                self.integrator.count(&self.cx(&eye.ray.sampler), eye.ray, out, &mut own.counters);
+            let shared = self.kept(sample);
+            let job = self.of_pass(shared.as_ref());
+            let (eye, _) = job.eye(pixel, sample);
+            if !job.is_blocked(&eye) {
+                job.integrator.count(&job.cx(&eye.ray.sampler), eye.ray, out, &mut own.counters);
             }
         }
         own.busy = start.elapsed();

@@ -9,8 +9,8 @@ use super::Nesting;
 use crate::{PathRay, View, film::BLOCK};
 
 /// The passes of a render: a first look after one sample, then four times as many each, then block by block. No pass
-/// crosses the end of a block.
-pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
+/// crosses the end of a block, and none has more than `at_once`.
+pub(super) fn passes(samples: u32, at_once: u32) -> Vec<(u32, u32)> {
     let mut passes = Vec::new();
     let mut first = 0;
     while first < samples {
@@ -19,6 +19,7 @@ pub(super) fn passes(samples: u32) -> Vec<(u32, u32)> {
             _ if first < BLOCK => (first * 4).min(BLOCK),
             _ => first + BLOCK,
         };
+        let last = last.min(first + at_once);
         passes.push((first, last.min(samples)));
         first = last;
     }
@@ -35,9 +36,16 @@ pub(super) struct Eye {
 
 /// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
 /// of the lens.
-pub(super) fn eye_ray(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sampler) -> (Eye, f32) {
+/// All samples of a pass have the moment of `of_pass`, if it is given.
+pub(super) fn eye_ray(
+    (view, nesting): (&View, Nesting),
+    pixel: [u32; 2],
+    sampler: &Sampler,
+    of_pass: Option<&Sampler>,
+) -> (Eye, f32) {
     let (film, weight) = place(view, nesting, pixel, sampler);
-    (eye_through(view, nesting, film, pixel[1], sampler), weight)
+    let u = moment(view, nesting, of_pass.unwrap_or(sampler));
+    (eye_through((view, nesting), (film, pixel[1]), sampler, u), weight)
 }
 
 /// Where in the picture a sample of `pixel` lies, in pixels, and its weight.
@@ -66,12 +74,18 @@ pub(super) fn on_lens(view: &View, nesting: Nesting, sampler: &Sampler) -> Optio
 
 /// The eye ray through a point of the picture, in pixels, when the row it lies in is exposed.
 pub(super) fn eye_at(view: &View, nesting: Nesting, film: Point2, sampler: &Sampler) -> Eye {
-    eye_through(view, nesting, film, (film.y as u32).min(view.height.saturating_sub(1)), sampler)
+    let row = (film.y as u32).min(view.height.saturating_sub(1));
+    eye_through((view, nesting), (film, row), sampler, moment(view, nesting, sampler))
 }
 
 /// The eye ray through a point of the picture, in pixels, when this row is exposed.
-fn eye_through(view: &View, nesting: Nesting, film: Point2, row: u32, sampler: &Sampler) -> Eye {
-    let u = moment(view, nesting, sampler).unwrap_or(0.5);
+fn eye_through(
+    (view, nesting): (&View, Nesting),
+    (film, row): (Point2, u32),
+    sampler: &Sampler,
+    moment: Option<f32>,
+) -> Eye {
+    let u = moment.unwrap_or(0.5);
     let lens = on_lens(view, nesting, sampler).unwrap_or(Lens::CENTRE);
     let (ray, gain) = view.eye(film, lens, view.shutter.moment(u, row, view.height));
     Eye { ray: PathRay::eye(ray, *sampler), gain }
@@ -113,7 +127,7 @@ mod tests {
         let view = view();
         let of = |i| {
             let sampler = Sampler::new(SamplerKind::Stratified, 5, [3, 4], i, samples);
-            let (eye, weight) = eye_ray(&view, nesting, [3, 4], &sampler);
+            let (eye, weight) = eye_ray((&view, nesting), [3, 4], &sampler, None);
             assert_eq!((weight, eye.gain), (1.0, 1.0));
             let ray = eye.ray.ray;
             // The rays through a place meet at the depth in focus, 1e6 m away, in front of the place.
@@ -166,10 +180,11 @@ mod tests {
 
     #[test]
     fn passes_are_gapless_and_end_with_blocks() {
-        assert_eq!(passes(1), [(0, 1)]);
-        assert_eq!(passes(100), [(0, 1), (1, 4), (4, 16), (16, 64), (64, 100)]);
+        assert_eq!(passes(1, BLOCK), [(0, 1)]);
+        assert_eq!(passes(100, BLOCK), [(0, 1), (1, 4), (4, 16), (16, 64), (64, 100)]);
         for n in 1..300 {
-            let p = passes(n);
+            assert!(passes(n, 1).iter().zip(0..).all(|(&pass, i)| pass == (i, i + 1)));
+            let p = passes(n, BLOCK);
             assert!(p.windows(2).all(|w| w[0].1 == w[1].0) && p[p.len() - 1].1 == n);
             assert!((BLOCK..=n).step_by(BLOCK as usize).all(|end| p.iter().any(|w| w.1 == end)));
         }

@@ -38,9 +38,11 @@ impl Job<'_> {
     pub fn record_in(&self, pixel: [u32; 2], sample: u32, detail: Detail) -> (RayTree, [f32; 3]) {
         match self.adaptive() {
             None => {
-                let eye = self.eye(pixel, sample).0;
+                let shared = self.kept(sample);
+                let job = self.of_pass(shared.as_ref());
+                let eye = job.eye(pixel, sample).0;
                 let place = pass::place(&self.scene.view, self.settings.nesting, pixel, &eye.ray.sampler);
-                self.watch(&eye, place, detail)
+                job.watch(&eye, place, detail)
             }
             Some(how) => match adaptive::places(self, &how, pixel).get(sample as usize) {
                 Some(&place) => {
@@ -53,14 +55,16 @@ impl Job<'_> {
 
     /// The linear RGB of one sample, unwatched: that of [`Job::record`], bit for bit, but faster.
     pub fn value(&self, pixel: [u32; 2], sample: u32) -> [f32; 3] {
+        let shared = self.kept(sample);
+        let job = self.of_pass(shared.as_ref());
         let eye = match self.adaptive() {
-            None => Some(self.eye(pixel, sample).0),
+            None => Some(job.eye(pixel, sample).0),
             Some(how) => adaptive::places(self, &how, pixel)
                 .get(sample as usize)
                 .map(|&place| adaptive::eye(self, place)),
         };
         let mut out = Contribution::default();
-        eye.and_then(|eye| self.value_of(&eye, &mut out)).unwrap_or([0.0; 3])
+        eye.and_then(|eye| job.value_of(&eye, &mut out)).unwrap_or([0.0; 3])
     }
 
     /// Traces an eye ray through a place of the picture.
@@ -79,11 +83,12 @@ impl Job<'_> {
                 let u = pass::in_pixel(nesting, &ray.sampler).to_array();
                 eye.random.push(RandomNumbers::two(Dim::Pixel, u));
             }
-            let moment = pass::moment(view, nesting, &ray.sampler);
+            let common = self.passes.sampler().unwrap_or(&ray.sampler);
+            let moment = pass::moment(view, nesting, common);
             eye.random.extend(moment.map(|u| RandomNumbers::one(Dim::Time, u)));
             eye.random.extend(lens.map(|u| RandomNumbers::two(Dim::Lens, u.to_array())));
             if cx.basis.wavelengths().is_some() {
-                eye.random.push(RandomNumbers::one(Dim::Lambda, ray.sampler.d1(Dim::Lambda)));
+                eye.random.push(RandomNumbers::one(Dim::Lambda, common.d1(Dim::Lambda)));
             }
         }
         tree.eye = Some(TreeEye {
@@ -107,9 +112,12 @@ impl Job<'_> {
         let cx = SampleCx { scene: self.scene, basis: tree.basis };
         let mut recorder = Recorder::new(&cx, Detail::default());
         if self.integrator.facts().particles != Particles::None {
-            // What a ray brings depends on all of the two walks.
+            // What a ray brings depends on all of the two walks, or on what was gathered before it.
             let mut out = Contribution::default();
-            self.integrator.record(&cx, tree.nodes.first()?.path, &mut out, &mut recorder);
+            let eye = tree.nodes.first()?.path;
+            let shared = self.kept(eye.sampler.index());
+            let job = self.of_pass(shared.as_ref());
+            job.integrator.record(&cx, eye, &mut out, &mut recorder);
             let gain = tree.eye.map_or(1.0, |eye| eye.gain);
             let value = film_value(&cx, &out, gain).unwrap_or([0.0; 3]);
             let mut again = recorder.finish(&value).below(id);

@@ -53,7 +53,10 @@ impl Job<'_> {
                 };
                 Box::new(adaptive::places(self, &how, pixel).into_iter().map(start))
             }
-            None => Box::new((0..self.settings.samples).map(move |sample| self.start(pixel, sample))),
+            None => Box::new(
+                (0..self.settings.samples)
+                    .map(move |sample| self.of_pass(self.kept(sample).as_ref()).start(pixel, sample)),
+            ),
         }
     }
 
@@ -75,17 +78,21 @@ impl Job<'_> {
 
     /// Takes the samples of a pixel, in their order, one at a time: whoever stops asking ends it.
     pub fn each_sample(&self, pixel: [u32; 2], gather: Gather) -> impl Iterator<Item = Taken> + '_ {
-        (0..).zip(self.starts(pixel)).map(move |(sample, start)| self.taken(sample, start, gather))
+        (0..)
+            .zip(self.starts(pixel))
+            .map(move |(sample, start)| self.of_pass(self.kept(sample).as_ref()).taken(sample, start, gather))
     }
 
     /// Takes one sample of a pixel; `None` if the pixel does not have it.
     pub fn sample_of(&self, pixel: [u32; 2], sample: u32, gather: Gather) -> Option<Taken> {
         let start = match self.adaptive() {
             Some(_) => self.starts(pixel).nth(sample as usize)?,
-            None if sample < self.settings.samples => self.start(pixel, sample),
+            None if sample < self.settings.samples => {
+                self.of_pass(self.kept(sample).as_ref()).start(pixel, sample)
+            }
             None => return None,
         };
-        Some(self.taken(sample, start, gather))
+        Some(self.of_pass(self.kept(sample).as_ref()).taken(sample, start, gather))
     }
 
     /// Takes all samples of a pixel, in their order.
@@ -148,13 +155,15 @@ impl Job<'_> {
         let full = [view.width, view.height];
         let mut out = Contribution::default();
         let mut found = Vec::new();
+        let shared = self.kept(0);
+        let job = self.of_pass(shared.as_ref());
         for [dx, dy] in [[1, 1], [3, 1], [1, 3], [3, 3]] {
             let at = |i: usize, d: u32| {
                 let place = (u64::from(4 * small[i] + d) * u64::from(full[i])) / (4 * u64::from(size[i]));
                 (place as u32).min(full[i] - 1)
             };
-            let (eye, _) = self.eye([at(0, dx), at(1, dy)], 0);
-            found.extend(self.value_of(&eye, &mut out));
+            let (eye, _) = job.eye([at(0, dx), at(1, dy)], 0);
+            found.extend(job.value_of(&eye, &mut out));
         }
         let n = found.len() as f32;
         match self.integrator.facts().output {

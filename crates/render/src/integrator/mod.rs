@@ -9,11 +9,14 @@ mod cast;
 mod distributed;
 mod light_tracing;
 mod path;
+mod photons;
 mod shading;
 mod survey;
 mod vertices;
 mod walk;
 mod whitted;
+
+use std::sync::Arc;
 
 use durer_model::material::GlossRays;
 use durer_scene::{Entry, ParamDefault, ParamSpec, ParamType};
@@ -28,7 +31,8 @@ pub use bdpt::Bidirectional;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
 pub use light_tracing::LightTracing;
-pub use path::{Direct, Path, VolPath};
+pub use path::{Direct, Path, Sppm, VolPath};
+pub use photons::{Gathering, Photon, Photons, Sent, send};
 pub use survey::{Survey, Surveyed};
 pub use walk::{Lights, Shadows};
 pub use whitted::Whitted;
@@ -63,6 +67,8 @@ pub enum Particles {
     None,
     /// One way to find light among others.
     Some,
+    /// They leave photons behind that samples gather.
+    Gathered,
     /// All light comes by them.
     All,
 }
@@ -80,6 +86,8 @@ pub struct Facts {
     pub particles: Particles,
     /// [`Transport::walks`].
     pub walks: bool,
+    /// [`Transport::gathering`].
+    pub gathering: Option<Gathering>,
 }
 
 /// What is traced.
@@ -118,6 +126,15 @@ pub trait Transport: Send + Sync {
     fn walks(&self) -> bool {
         false
     }
+    /// What photons the samples of each index share, if they do.
+    fn gathering(&self) -> Option<Gathering> {
+        None
+    }
+    /// The same with the photons that its samples share.
+    fn with(&self, photons: &Arc<Photons>) -> Option<Box<dyn Integrator>> {
+        let _ = photons;
+        None
+    }
     /// Traces a ray and all it spawns; leaves what arrives in `out`.
     fn trace<P: Probe>(
         &self,
@@ -135,6 +152,11 @@ pub trait Integrator: Send + Sync {
     fn facts(&self) -> Facts;
     /// [`Transport::eye_samples`].
     fn eye_samples(&self, asked: u32) -> EyeSamples;
+    /// [`Transport::with`].
+    fn with(&self, photons: &Arc<Photons>) -> Option<Box<dyn Integrator>> {
+        let _ = photons;
+        None
+    }
     /// [`Transport::trace`] of an eye ray, unwatched.
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
     /// [`Transport::trace`] of an eye ray, recorded.
@@ -153,7 +175,11 @@ impl<T: Transport> Integrator for T {
             bounded: self.bounded(),
             particles: self.particles(),
             walks: self.walks(),
+            gathering: self.gathering(),
         }
+    }
+    fn with(&self, photons: &Arc<Photons>) -> Option<Box<dyn Integrator>> {
+        Transport::with(self, photons)
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         Transport::eye_samples(self, asked)
@@ -187,12 +213,13 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Direct>(),
     Entry::of::<LightTracing>(),
     Entry::of::<Bidirectional>(),
+    Entry::of::<Sppm>(),
     Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
 ];
 
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
-pub const PATHS: &[&str] = &["path", "volpath", "direct", "light", "bdpt"];
+pub const PATHS: &[&str] = &["path", "volpath", "direct", "light", "bdpt", "sppm"];
 
 /// Bounces of those.
 const PATH_DEPTH: ParamSpec = ParamSpec::new(
@@ -221,4 +248,4 @@ const ROULETTE_DEPTH: ParamSpec = ParamSpec::new(
 .range(0.0, 10_000.0);
 
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] = &["function", "mlt", "randomwalk", "simplepath", "simplevolpath", "sppm"];
+pub const NOT_YET: &[&str] = &["function", "mlt", "randomwalk", "simplepath", "simplevolpath"];

@@ -2,9 +2,11 @@
 //!
 //! A sample's value becomes (rays, Y, Y²) with Y its luminance. The film's means of these give the rays of a sample and,
 //! as E[Y²] - E[Y]², the variance of one.
+use std::sync::Arc;
+
 use durer_core::spectrum::luminance;
 
-use super::{EyeSamples, Facts, Integrator, Output};
+use super::{EyeSamples, Facts, Integrator, Output, Photons};
 use crate::{
     Contribution, PathRay, SampleCx, Value,
     probe::{Counters, Recorder, TreeNode},
@@ -66,6 +68,10 @@ impl Integrator for Surveyed {
     }
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         self.integrator.eye_samples(asked)
+    }
+    fn with(&self, photons: &Arc<Photons>) -> Option<Box<dyn Integrator>> {
+        let integrator = self.integrator.with(photons)?;
+        Some(Box::new(Self { integrator, survey: self.survey }))
     }
     fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
         self.integrator.sample(cx, ray, out);

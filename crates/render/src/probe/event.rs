@@ -63,6 +63,17 @@ pub struct Floating {
     pub particle: Option<Particle>,
 }
 
+/// Light that photons brought to a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gathered {
+    /// Photons within the disc.
+    pub photons: u32,
+    /// Radius of the disc, in metres.
+    pub radius: f32,
+    /// What the surface scatters of it along the ray, as the ray's start sees it: part of its own light.
+    pub radiance: Spectrum,
+}
+
 /// A place where light is scattered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {

@@ -15,7 +15,7 @@ mod tree;
 mod walk;
 
 pub use counters::Counters;
-pub use event::{Choice, ChosenBy, Floating, LightEvent, Particle, RandomNumbers, Shaded};
+pub use event::{Choice, ChosenBy, Floating, Gathered, LightEvent, Particle, RandomNumbers, Shaded};
 pub use kind::RayKind;
 pub use node::{BoxTest, TreeHit, TreeMedia, TreeNode, TreeShading};
 pub use recorder::Recorder;
@@ -33,7 +33,7 @@ use crate::{Object, PathRay};
 /// An observer. Every method does nothing unless overridden.
 pub trait Probe: TraversalProbe {
     /// True if the probe wants details that cost extra work. Without it nothing is told by [`Probe::chosen`],
-    /// [`Probe::shaded`], [`Probe::floating`] and [`Probe::limit`].
+    /// [`Probe::shaded`], [`Probe::floating`], [`Probe::gathered`] and [`Probe::limit`].
     const RECORDS: bool = false;
 
     /// True if no more rays are wanted: those that follow are given up. Only asked if the probe [`Probe::RECORDS`].
@@ -59,6 +59,10 @@ pub trait Probe: TraversalProbe {
     }
     /// What floats was on its way.
     fn floating(&mut self, id: Self::Id, event: &Floating) {
+        let _ = (id, event);
+    }
+    /// Photons lay where the ray met a surface.
+    fn gathered(&mut self, id: Self::Id, event: &Gathered) {
         let _ = (id, event);
     }
     /// The light that the ray met could have been sampled too: the density of that, 1/sr, and the share that is left to

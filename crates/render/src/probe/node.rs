@@ -10,7 +10,7 @@ use durer_model::{
     texture::TextureLookup,
 };
 
-use super::{Choice, Floating, LightEvent, Limit, Particle, RandomNumbers, RayKind, StopReason};
+use super::{Choice, Floating, Gathered, LightEvent, Limit, Particle, RandomNumbers, RayKind, StopReason};
 use crate::{MediumStack, Object, PathRay};
 
 /// Where a ray met a surface. Places and directions are in render space.
@@ -111,6 +111,8 @@ pub struct TreeNode {
     pub shading: Option<TreeShading>,
     /// What floats on its way; `None` where nothing does, and for shadow rays.
     pub floating: Option<Floating>,
+    /// What photons brought to the surface that was hit; `None` where none are gathered.
+    pub gathered: Option<Gathered>,
     /// What a shadow ray found out.
     pub light: Option<LightEvent>,
     /// Why nothing follows.

@@ -6,8 +6,8 @@ use durer_core::{Id, math::Ray, spectrum::Spectrum};
 use durer_model::{Surface, texture::TextureLookup};
 
 use super::{
-    Choice, Clock, Detail, Floating, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded, StopReason,
-    TreeHit, TreeMedia, TreeNode, TreeShading,
+    Choice, Clock, Detail, Floating, Gathered, LightEvent, Limit, NodeId, Probe, RayKind, RayTree, Shaded,
+    StopReason, TreeHit, TreeMedia, TreeNode, TreeShading,
     walk::{self, Step},
 };
 use crate::{Object, PathRay, SampleCx};
@@ -130,6 +130,7 @@ impl Probe for Recorder<'_> {
             hit: None,
             shading: None,
             floating: None,
+            gathered: None,
             light: None,
             stop: None,
             limit: None,
@@ -192,6 +193,9 @@ impl Probe for Recorder<'_> {
     }
     fn floating(&mut self, id: NodeId, event: &Floating) {
         Recorder::node(self, id).floating = Some(*event);
+    }
+    fn gathered(&mut self, id: NodeId, event: &Gathered) {
+        Recorder::node(self, id).gathered = Some(*event);
     }
     fn met_light(&mut self, id: NodeId, other_pdf: f32, mis: f32) {
         if let Some(chosen) = &mut Recorder::node(self, id).chosen {

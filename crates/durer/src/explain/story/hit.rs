@@ -157,7 +157,7 @@ impl Teller<'_> {
         scene.filled_with(id).map_or_else(|| "a body".to_owned(), |o| format!("\"{}\"", o.name))
     }
 
-    /// Emission, ambient term and blurred sky.
+    /// Emission, ambient term, blurred sky and photons.
     fn own(&self, node: &TreeNode, hit: &TreeHit, shading: &TreeShading) -> Vec<String> {
         let adds = |s: Spectrum| self.of_pixel(self.rgb(node.throughput * s));
         let mut sentences = Vec::new();
@@ -202,6 +202,15 @@ impl Teller<'_> {
         let sky = shading.blurred_sky;
         if !sky.is_black() {
             sentences.push(format!("Its gloss shows the sky blurred: {}{}.", self.lanes(sky), adds(sky)));
+        }
+        if let Some(event) = node.gathered {
+            let (found, radius) = (event.photons, number(f64::from(event.radius)));
+            let photons = if found == 1 { "photon lies" } else { "photons lie" };
+            sentences.push(format!(
+                "{found} {photons} within {radius} m: of what they bring it scatters {}{}.",
+                self.lanes(event.radiance),
+                adds(event.radiance)
+            ));
         }
         sentences
     }

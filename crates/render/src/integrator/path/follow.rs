@@ -11,6 +11,7 @@ use durer_model::{
 
 use super::{
     super::{
+        photons::Photons,
         shading::Shading,
         walk::{Parts, Walk},
     },
@@ -56,13 +57,18 @@ pub(super) struct Follow<'a, P: Probe> {
     pub(super) walk: Walk<'a, P>,
     /// Whether there are surfaces below which light is followed.
     pub(super) walks: bool,
+    /// Those of the pass, if light is gathered.
+    pub(super) photons: Option<&'a Photons>,
+    /// Light was gathered: what a spread ray meets now is asked for its own light only.
+    pub(super) has_gathered: bool,
 }
 
 impl<'a, P: Probe> Follow<'a, P> {
     pub(super) fn new(course: &'a Course, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
         let heeds_media = course.heeds_media && !cx.scene.volumes.is_empty();
         let walks = !course.direct_only && cx.scene.media.are_walked();
-        Self { course, walk: Walk { heeds_media, ..Walk::new(&course.rules, cx, probe) }, walks }
+        let walk = Walk { heeds_media, ..Walk::new(&course.rules, cx, probe) };
+        Self { course, walk, walks, photons: None, has_gathered: false }
     }
 
     /// Follows the path of an eye ray, which starts in the bodies that the camera is in.
@@ -189,13 +195,21 @@ impl<'a, P: Probe> Follow<'a, P> {
             let parts = Parts { arrived: arriving, emission: own, ambient: black, blurred_sky: black };
             self.report_hit(ray, (&s, &crossing), &parts, id);
         }
+        let is_last = self.has_gathered || self.course.direct_only && ray.density.is_some();
+        let gathers = !is_last && self.gathers(ray, &s);
+        // PERF: where nothing is gathered nothing is added (bench render).
+        let emission = if gathers { emission + self.gather(ray, &s, id) } else { emission };
         self.walk.probe.local(id, emission);
-        if self.course.direct_only && ray.density.is_some() {
+        if is_last {
             return Step { radiance: emission, next: self.pass_only(ray, (&s, &crossing), id) };
         }
         let lit = self.lit(&s);
         let radiance = self.light(ray, (&s, &crossing), &lit, (id, emission));
-        Step { radiance, next: self.scatter(ray, (&s, &crossing), &lit, id) }
+        let next = self.scatter(ray, (&s, &crossing), &lit, id);
+        // What goes straight on was not scattered here, and has the density of a bounce before.
+        self.has_gathered |=
+            gathers && matches!(next, Some(RayKind::GlossyReflection | RayKind::GlossyRefraction));
+        Step { radiance, next }
     }
 
     /// Where light is wanted, as lights are chosen by it.

@@ -6,14 +6,18 @@
 mod below;
 mod direct;
 mod follow;
+mod gather;
 mod particle;
 mod report;
+mod sppm;
 
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Integrator, LIGHT_SAMPLER, PATH_DEPTH, ROULETTE_DEPTH, Start, Transport, walk::Rules};
 use crate::{Contribution, LightSampler, SampleCx, probe::Probe};
 use follow::Follow;
+
+pub use sppm::Sppm;
 
 /// What a path integrator asks of the recursion.
 #[derive(Clone, Copy, Debug, PartialEq)]
