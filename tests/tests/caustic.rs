@@ -142,9 +142,10 @@ fn an_error_of_a_caustic_costs_particles_fewer_rays() {
         );
         costs.push(square * rays);
     }
-    for cost in &costs[1..] {
-        assert!(*cost < 0.1 * costs[0], "{costs:?}");
-    }
+    let [path, light, both, blurred @ ..] = &costs[..] else { unreachable!() };
+    assert!(light.max(*both) < 0.1 * path, "{costs:?}");
+    // Blur costs photons much of what they gain.
+    assert!(blurred.iter().all(|cost| cost < path), "{costs:?}");
 }
 
 /// How far caustics are off, and after how many samples of paths they still are: docs/benchmarks.md.
