@@ -20,6 +20,7 @@ mod phong;
 mod principled;
 mod roughness;
 mod sent;
+mod sides;
 mod thindielectric;
 
 use std::fmt::Debug;
@@ -43,6 +44,7 @@ pub use self::{
     phong::Phong,
     principled::Principled,
     sent::{Arriving, GlossRays, Sent},
+    sides::Sides,
     thindielectric::ThinDielectric,
 };
 use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, texture::TextureAt};
@@ -110,6 +112,7 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Hair>(),
     Entry::of::<Mix>(),
     Entry::of::<Mask>(),
+    Entry::of::<Sides>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
