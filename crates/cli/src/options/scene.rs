@@ -15,7 +15,7 @@ use crate::value::{Exposure, definition, film_point, finite, not_negative, posit
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
-    /// A scene file, or the name of a built-in scene (see `durer scenes`).
+    /// A scene file (glTF, pbrt, Mitsuba, OBJ, PLY or STL), or the name of a built-in scene (see `durer scenes`).
     #[arg(default_value = "whitted", help_heading = None)]
     pub(crate) scene: String,
     /// Camera, by name or index [default: the first, or one that frames everything].

@@ -35,11 +35,11 @@ struct Slide {
 }
 
 impl Slide {
-    fn new(picture: Picture, fov: f32, mask: Option<spot::Cone>) -> Self {
+    fn new(picture: Picture, (fov, aspect): (f32, Option<f32>), mask: Option<spot::Cone>) -> Self {
         let opening = tan(0.5 * fov.to_radians());
         let [width, height] = picture.size().map(|n| n as f32);
-        let shorter = width.min(height);
-        let half = [opening * width / shorter, opening * height / shorter];
+        let aspect = aspect.unwrap_or(width / height);
+        let half = [opening * aspect.max(1.0), opening * (1.0 / aspect).max(1.0)];
         let mut slide = Self { picture, half, mask, integral: 0.0 };
         slide.integral = slide.sum();
         slide
@@ -104,6 +104,13 @@ impl Kind for Projection {
                 .unit("degrees")
                 .range(0.01, 179.0),
             ParamSpec::new(
+                "aspect",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Width by height of the picture as it is thrown; default: its own.",
+            )
+            .above(0.0, f32::INFINITY),
+            ParamSpec::new(
                 "coneangle",
                 ParamType::Float,
                 ParamDefault::Unset,
@@ -128,7 +135,11 @@ impl Kind for Projection {
         let is_linear = args.text(spot::Cone::RIM.name) == "linear";
         let outer = args.optional_float("coneangle");
         let mask = outer.map(|outer| spot::Cone::new(outer, args.float("conedeltaangle"), is_linear));
-        let slide = Slide::new(picture.unwrap_or_else(Picture::placeholder), args.float("fov"), mask);
+        let slide = Slide::new(
+            picture.unwrap_or_else(Picture::placeholder),
+            (args.float("fov"), args.optional_float("aspect")),
+            mask,
+        );
         let factor = factor(args, slide.integral)?;
         Some(Box::new(Beam::new(args.triple("from").into(), slide, Color::gray(factor).into())))
     }

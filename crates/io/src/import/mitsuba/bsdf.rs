@@ -221,11 +221,10 @@ fn blended(world: &mut World<'_>, object: &Object, backs: Backs, change: Change<
 /// A normal map or a bump map around another material.
 fn tilted(world: &mut World<'_>, object: &Object, backs: Backs, change: Change<'_>) -> Option<MaterialRef> {
     let is_bump = object.plugin == "bumpmap";
-    world.check(
-        object,
-        if is_bump { &["scale"] } else { &["normalmap"] },
-        &["flip_invalid_normals", "use_shadowing_function"],
-    );
+    let mut takes = vec![if is_bump { "scale" } else { "normalmap" }];
+    // The texture of a bump map may have any name.
+    takes.extend(object.children.iter().filter(|_| is_bump).map(|c| c.name.as_str()));
+    world.check(object, &takes, &["flip_invalid_normals", "use_shadowing_function"]);
     let all = within(world, object, &[1])?;
     let inner = Rc::clone(all.first()?);
     let texture = world.inner(object).into_iter().find(|(_, o)| o.tag == "texture").map(|(_, o)| o);

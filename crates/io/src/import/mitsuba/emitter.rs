@@ -141,6 +141,7 @@ fn spot(world: &mut World<'_>, object: &Object) -> Vec<(&'static str, Params, DA
     let kept = ["coneangle", "conedeltaangle", "rim"];
     let mut slide =
         Params::new().string("filename", &path).float("scale", scale).float("fov", 2.0 * cutoff as f32);
+    slide = slide.float("aspect", 1.0);
     params.iter().filter(|p| kept.contains(&p.name.as_str())).for_each(|p| slide.push(p.clone()));
     // The picture's rows go the way of +y.
     vec![("projection", slide, place * DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0)))]

@@ -289,6 +289,6 @@ fn is_free(object: &Object, name: &str) -> bool {
     let child = object.children.iter().find(|c| c.name == name);
     child.is_some_and(|c| match &c.what {
         What::Object(o) => !matches!(o.tag.as_str(), "texture" | "spectrum" | "volume"),
-        What::Ref(_) => matches!(name, "bsdf" | "emitter" | "medium"),
+        What::Ref(_) => matches!(name, "bsdf" | "emitter" | "medium" | "interior" | "exterior" | "material"),
     })
 }
