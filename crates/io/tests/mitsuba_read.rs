@@ -66,7 +66,7 @@ fn unknown_words_are_told_with_their_place_and_the_nearest_one() {
     let wrong = "<shape type=\"sphere\"><float name=\"radios\" value=\"2\"/></shape>";
     assert_eq!(
         errors(wrong),
-        ["2:44: unknown parameter of shape \"sphere\" \"radios\" (did you mean \"radius\"?)"]
+        ["2:50: unknown parameter of shape \"sphere\" \"radios\" (did you mean \"radius\"?)"]
     );
     assert_eq!(
         errors("<shap type=\"sphere\"/>"),
@@ -85,9 +85,9 @@ fn values_that_are_none_are_told() {
     let radius = |value: &str| {
         errors(&format!("<shape type=\"sphere\"><float name=\"radius\" value=\"{value}\"/></shape>"))
     };
-    assert_eq!(radius("two"), ["2:52: expected a number, found \"two\""]);
-    assert_eq!(radius("1e999"), ["2:52: expected a number, found \"1e999\""]);
-    assert_eq!(radius("-1"), ["2:52: \"radius\" is -1, expected a number above 0"]);
+    assert_eq!(radius("two"), ["2:50: expected a number, found \"two\""]);
+    assert_eq!(radius("1e999"), ["2:50: expected a number, found \"1e999\""]);
+    assert_eq!(radius("-1"), ["2:50: \"radius\" is -1, expected a number above 0"]);
     let wrong = "<shape type=\"sphere\"><string name=\"radius\" value=\"1\"/></shape>";
     assert_eq!(errors(wrong), ["2:51: \"radius\" is a string, expected a number"]);
     let flat = "<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"0\"/></transform></shape>";
@@ -113,7 +113,7 @@ fn names_stand_for_values_and_the_users_go_first() {
     let reading = Reading { definitions: vec![("r".to_owned(), "5".to_owned())], ..Reading::default() };
     assert_eq!(radius(text(&format!("<scene version='3.0.0'>{inside}</scene>"), reading)), 5.0);
     let missing = inside.replace("$r", "$s");
-    assert_eq!(errors(&missing), ["2:81: unknown value \"$s\" (valid: r)"]);
+    assert_eq!(errors(&missing), ["2:79: unknown value \"$s\" (valid: r)"]);
 }
 
 #[test]
