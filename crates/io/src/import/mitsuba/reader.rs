@@ -237,7 +237,9 @@ impl<'i> Reader<'i> {
                 Err(error) => {
                     let hint = self.assets.advice(&error);
                     let said = self.said.error(at, error.to_string());
-                    hint.into_iter().for_each(|hint| drop(said.hint(hint).at.clone()));
+                    if let Some(hint) = hint {
+                        said.hint(hint);
+                    }
                 }
             }
         }
@@ -262,7 +264,8 @@ impl<'i> Reader<'i> {
             self.attributes(node, &["id", "name"], place);
             return Some(Child { name, what: What::Ref(self.needed(node, "id", place)?), at });
         }
-        if !OBJECTS.contains(&tag) && !(tag == "spectrum" && node.has_attribute("type")) {
+        let is_object = OBJECTS.contains(&tag) || (tag == "spectrum" && node.has_attribute("type"));
+        if !is_object {
             let known = OBJECTS.iter().chain(&VALUES).chain(&OTHERS).copied();
             self.said.unknown(at, "element", tag, known);
             return None;

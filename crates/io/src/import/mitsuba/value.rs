@@ -83,5 +83,11 @@ fn checked(curve: Vec<f32>) -> Result<Value, String> {
 
 /// What `parsed` says, or a complaint.
 pub(super) fn told<T>(parsed: Result<T, String>, at: Span, said: &mut Diagnostics) -> Option<T> {
-    parsed.map_err(|message| drop(said.error(at, message).at.clone())).ok()
+    match parsed {
+        Ok(value) => Some(value),
+        Err(message) => {
+            said.error(at, message);
+            None
+        }
+    }
 }

@@ -33,15 +33,15 @@ impl Grid {
             let place = (p * n as f64 - 0.5).clamp(0.0, n as f64 - 1.0);
             (*first, *share) = (place as usize, place.fract());
         }
+        let strides = [1, self.size[0], self.size[0] * self.size[1]];
         let mut sum = [0.0f64; 3];
         for corner in 0..8usize {
-            let mut weight = 1.0;
-            let mut index = 0;
-            for (axis, stride) in [(2, self.size[0] * self.size[1]), (1, self.size[0]), (0, 1)] {
+            let (mut weight, mut index) = (1.0, 0);
+            let axes = first.iter().zip(share).zip(self.size.iter().zip(strides));
+            for (axis, ((first, share), (n, stride))) in axes.enumerate() {
                 let up = corner >> axis & 1;
-                let (f, s, n) = (first[axis], share[axis], self.size[axis]);
-                weight *= if up == 1 { s } else { 1.0 - s };
-                index += (f + up).min(n - 1) * stride;
+                weight *= if up == 1 { share } else { 1.0 - share };
+                index += (first + up).min(n - 1) * stride;
             }
             let value = self.values.get(index).copied().unwrap_or_default();
             sum.iter_mut().zip(value).for_each(|(sum, v)| *sum += weight * f64::from(v));
