@@ -25,6 +25,14 @@ pub(crate) fn tonemap() -> impl TypedValueParser<Value = ToneMap> {
     PossibleValuesParser::new(ToneMap::WORDS).try_map(|word| ToneMap::from_word(&word).ok_or("unknown"))
 }
 
+/// A name and its value.
+pub(crate) fn definition(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected NAME=VALUE, without blanks between".to_owned()),
+    }
+}
+
 /// Numbers with commas between.
 pub(crate) fn numbers<T: FromStr, const N: usize>(text: &str, form: &str) -> Result<[T; N], String> {
     let list: Option<Vec<T>> = text.split(',').map(|v| v.trim().parse().ok()).collect();

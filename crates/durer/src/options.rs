@@ -69,6 +69,11 @@ pub struct Options {
     pub crop: Option<Tile>,
     /// The set of materials that the scene wears, by name or index; the file's own if `None`. See [`crate::open_for`].
     pub variant: Option<String>,
+    /// Values for names that a scene of Mitsuba leaves open. See [`crate::open_for`].
+    pub definitions: Vec<(String, String)>,
+    /// The folder that the scene's files may be read from, its own or one above it; its own if `None`. See
+    /// [`crate::open_for`].
+    pub root: Option<PathBuf>,
     /// Which animation of the file moves the scene. See [`crate::open_for`].
     pub play: Play,
     /// The moment of the picture, in seconds.
@@ -99,6 +104,8 @@ impl Options {
             play: self.play.clone(),
             moment: self.moment(),
             variant: self.variant.clone(),
+            definitions: self.definitions.clone(),
+            root: self.root.clone(),
         }
     }
     /// When the scene is looked at, as far as a file must know that holds an animation.

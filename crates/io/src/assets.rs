@@ -18,6 +18,8 @@ use crate::gzip;
 #[derive(Debug)]
 pub struct FileAssets {
     folder: PathBuf,
+    /// The folder that holds all files, if it lies above that, and how many folders above.
+    root: Option<(PathBuf, usize)>,
     limits: Limits,
     embedded: BTreeMap<String, Arc<[u8]>>,
     users: BTreeMap<String, String>,
@@ -40,6 +42,7 @@ impl FileAssets {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
         Self {
             folder,
+            root: None,
             limits,
             embedded: BTreeMap::new(),
             users: BTreeMap::new(),
@@ -48,6 +51,27 @@ impl FileAssets {
             listings: Cache::default(),
             found: Mutex::default(),
         }
+    }
+    /// Lets files be read from all of `root`, the folder or one above it. Paths stay relative to the folder.
+    ///
+    /// # Errors
+    /// If it is neither.
+    pub fn widen(&mut self, root: &Path) -> Result<(), String> {
+        let canonical = |p: &Path| p.canonicalize().map_err(|e| format!("{}: {e}", p.display()));
+        let (folder, above) = (canonical(&self.folder)?, canonical(root)?);
+        let below = folder.strip_prefix(&above).map_err(|_| {
+            format!(
+                "{} is not a folder that holds the scene: its folder is {}",
+                root.display(),
+                folder.display()
+            )
+        })?;
+        self.root = Some((above.clone(), below.components().count()));
+        Ok(())
+    }
+    /// How many folders above its own a path may climb.
+    fn above(&self) -> usize {
+        self.root.as_ref().map_or(0, |(_, above)| *above)
     }
     /// Registers an embedded file under `name`, which then goes before a file of that name.
     pub fn insert(&mut self, name: impl Into<String>, bytes: impl Into<Arc<[u8]>>) {
@@ -66,11 +90,15 @@ impl FileAssets {
     /// If it does not, or is not there.
     pub fn resolve(&self, path: &str) -> Result<PathBuf, AssetError> {
         let outside = || AssetError::Outside { path: path.to_owned() };
-        let relative = relative_names(path).ok_or_else(outside)?;
+        let relative = relative_names(path, self.above()).ok_or_else(outside)?;
         let canonical = |p: &Path| p.canonicalize().map_err(|e| io_error(path, &e));
         let file = canonical(&self.folder.join(relative))?;
         // Only the canonical paths tell whether a symbolic link leads out.
-        if !file.starts_with(canonical(&self.folder)?) {
+        let within = match &self.root {
+            Some((root, _)) => root.clone(),
+            None => canonical(&self.folder)?,
+        };
+        if !file.starts_with(within) {
             return Err(outside());
         }
         if file.is_file() {
@@ -88,7 +116,7 @@ impl FileAssets {
     }
     /// The file at `path`, if it was asked for and found before.
     pub(crate) fn read_as(&self, path: &str) -> Option<PathBuf> {
-        let file = self.folder.join(relative_names(path)?).canonicalize().ok()?;
+        let file = self.folder.join(relative_names(path, self.above())?).canonicalize().ok()?;
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         found.contains(&file).then_some(file)
     }
@@ -119,7 +147,7 @@ impl FileAssets {
     }
     /// For messages about a missing file: the folder it should be in, and which file there is called nearly the same.
     pub(crate) fn looked_in(&self, path: &str) -> Option<String> {
-        let relative = relative_names(path)?;
+        let relative = relative_names(path, self.above())?;
         let folder = match relative.parent() {
             Some(parent) => self.folder.join(parent),
             None => self.folder.clone(),
@@ -182,7 +210,10 @@ impl Assets for FileAssets {
     fn advice(&self, error: &AssetError) -> Option<String> {
         let advice = match error {
             AssetError::Missing { path } => self.looked_in(path),
-            AssetError::Outside { .. } => Some("copy the file into the scene's folder".to_owned()),
+            AssetError::Outside { .. } => Some(
+                "copy the file into the scene's folder, or name a folder with --root that holds both"
+                    .to_owned(),
+            ),
             _ => None,
         };
         let user = self.users.get(error.path()).map(|user| format!("used by {user}"));
@@ -203,8 +234,8 @@ impl Assets for FileAssets {
     }
 }
 
-/// `path` without `.` and `..`; `None` if it is absolute or climbs out.
-fn relative_names(path: &str) -> Option<PathBuf> {
+/// `path` without `.` and without `..` but for `above` at its beginning; `None` if it is absolute or climbs higher.
+fn relative_names(path: &str, above: usize) -> Option<PathBuf> {
     let path = path.replace('\\', "/");
     let drive = path.as_bytes().get(1) == Some(&b':');
     if path.starts_with('/') || drive || path.contains('\0') {
@@ -214,11 +245,12 @@ fn relative_names(path: &str) -> Option<PathBuf> {
     for name in path.split('/') {
         match name {
             "" | "." => {}
-            ".." => drop(names.pop()?),
+            ".." if names.last().is_none_or(|last| *last == "..") => names.push(name),
+            ".." => drop(names.pop()),
             _ => names.push(name),
         }
     }
-    Some(names.iter().collect())
+    (names.iter().filter(|name| **name == "..").count() <= above).then(|| names.iter().collect())
 }
 
 fn io_error(path: &str, error: &std::io::Error) -> AssetError {

@@ -2,6 +2,7 @@
 //! cannot be out of date. `DURER_BLESS=1` writes it anew.
 mod gltf;
 mod lines;
+mod mitsuba;
 mod pbrt;
 mod trial;
 
@@ -13,11 +14,12 @@ fn page() -> String {
          Made by `DURER_BLESS=1 cargo test -p durer-tests --test formats`, which tries each feature on a small scene and \
          writes down what durer said; do not edit. *Read* means that nothing was said. What is read in another way comes \
          with the warning that durer gives, what is refused with the error: neither is ever swallowed.\n\n\
-         More about each: [pbrt](pbrt-language.md), [glTF](gltf.md), [OBJ, PLY, STL](meshes.md), \
+         More about each: [pbrt](pbrt-language.md), [glTF](gltf.md), [Mitsuba](mitsuba.md), [OBJ, PLY, STL](meshes.md), \
          [kinds and parameters](reference.md).\n",
     );
     pbrt::write(&mut out);
     gltf::write(&mut out);
+    mitsuba::write(&mut out);
     lines::write(&mut out);
     out
 }

@@ -9,13 +9,13 @@ use durer::{
     scene::Missing,
 };
 
-use crate::value::{Exposure, film_point, finite, not_negative, positive, shutter};
+use crate::value::{Exposure, definition, film_point, finite, not_negative, positive, shutter};
 
 /// Which scene, from which camera, when.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
-    /// A scene file, or the name of a built-in scene (see `durer scenes`).
+    /// A scene file (glTF, pbrt, Mitsuba, OBJ, PLY or STL), or the name of a built-in scene (see `durer scenes`).
     #[arg(default_value = "whitted", help_heading = None)]
     pub(crate) scene: String,
     /// Camera, by name or index [default: the first, or one that frames everything].
@@ -29,6 +29,12 @@ pub(crate) struct SceneOptions {
     /// the file's own].
     #[arg(long, value_name = "NAME_OR_INDEX", allow_negative_numbers = true)]
     pub(super) variant: Option<String>,
+    /// A value for a name that a scene of Mitsuba leaves open, as in -Dspp=64; again for each name.
+    #[arg(long = "define", short = 'D', value_name = "NAME=VALUE", value_parser = definition)]
+    pub(super) define: Vec<(String, String)>,
+    /// The folder that the scene may read files from: its own, or one above it [default: its own].
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) root: Option<PathBuf>,
     /// Which animation of a glTF file to play, by name or index, or all (`durer info` lists them) [default: the first
     /// with --time-at or --shutter, else none: the scene at rest].
     #[arg(long, value_name = "NAME_OR_INDEX", allow_negative_numbers = true)]
@@ -69,6 +75,8 @@ impl SceneOptions {
             environment: self.env.clone(),
             play: self.play(),
             variant: self.variant.clone(),
+            definitions: self.define.clone(),
+            root: self.root.clone(),
             time: self.time_at.unwrap_or(0.0),
             shutter: self.shutter.map(|shutter| shutter.seconds(self.fps())),
             lens: self.lens(),
@@ -101,12 +109,14 @@ impl SceneOptions {
     }
 
     /// Option names with their values, as they were given.
-    pub(super) fn words(&self) -> [(&'static str, Option<String>); 10] {
+    pub(super) fn words(&self) -> Vec<(&'static str, Option<String>)> {
         let Self {
             scene: _,
             camera,
             env,
             variant,
+            define,
+            root,
             animation,
             time_at,
             shutter,
@@ -117,8 +127,10 @@ impl SceneOptions {
             focus_pixel,
             lenient: _,
         } = self;
-        [
+        let definitions = define.iter().map(|(name, value)| ("define", Some(format!("{name}={value}"))));
+        let others = [
             ("camera", camera.clone()),
+            ("root", root.as_ref().map(|f| f.display().to_string())),
             ("env", env.as_ref().map(|f| f.display().to_string())),
             ("variant", variant.clone()),
             ("animation", animation.clone()),
@@ -128,7 +140,8 @@ impl SceneOptions {
             ("fnumber", fnumber.map(|v| v.to_string())),
             ("focus", focus.map(|v| v.to_string())),
             ("focus-pixel", focus_pixel.map(|[x, y]| format!("{x},{y}"))),
-        ]
+        ];
+        others.into_iter().chain(definitions).collect()
     }
 
     fn lens(&self) -> LensOptions {

@@ -72,6 +72,14 @@ impl Sampled {
         share_of(|nm| self.or_zero(nm))
     }
 
+    /// The luminance of a light of this power over wavelengths, where 1 at all of them has luminance 1.
+    pub fn luminance(&self) -> f32 {
+        let of = |(i, weights): (usize, &[f32; 3])| {
+            super::luminance(weights.map(f64::from)) * self.or_zero(f64::from(RANGE.0) + i as f64)
+        };
+        MATCHING.iter().enumerate().map(of).sum::<f64>() as f32
+    }
+
     /// The value at a wavelength in nm, 0 outside.
     pub(super) fn or_zero(&self, nm: f64) -> f64 {
         self.inside(nm).unwrap_or(0.0)
@@ -119,6 +127,12 @@ mod tests {
         assert_eq!([400.0, 450.0, 600.0, 700.0].map(|l| s.inside(l)), [1.0, 2.0, 2.5, 2.0].map(Some));
         assert_eq!([399.0, 701.0].map(|l| s.inside(l)), [None; 2]);
         assert_eq!([300.0, 600.0, 800.0].map(|l| s.nearest(l)), [1.0, 2.5, 2.0]);
+    }
+
+    #[test]
+    fn the_luminance_of_a_light_is_linear_in_its_power_and_1_where_that_is_1() {
+        let flat = |v: f32| Sampled::new(&[300.0, v, 900.0, v]).expect("a spectrum").luminance();
+        assert!((flat(1.0) - 1.0).abs() < 1e-3 && (flat(20.0) - 20.0 * flat(1.0)).abs() < 1e-4);
     }
 
     #[test]

@@ -56,6 +56,7 @@ const SIGNATURES: &[(&[u8], Content)] = &[
 const IMAGE: Content = foreign("a picture", "name the scene file that uses it");
 const XML: Content =
     foreign("an XML file, such as COLLADA or X3D", "convert it to glTF, for example with Blender");
+const MITSUBA: Content = ours("a Mitsuba scene", "name it .xml", "Mitsuba");
 const GLTF: Content = ours("glTF text", "name it .gltf", "glTF 2.0");
 const JSON: Content = foreign("a JSON file", "name the scene file");
 const STL: Content = ours("STL text", "name it .stl", "STL");
@@ -76,6 +77,7 @@ impl Content {
         match text {
             [b'{', ..] if text.windows(7).any(|w| w == b"\"asset\"") => Some(&GLTF),
             [b'{' | b'[', ..] => Some(&JSON),
+            [b'<', ..] if text.windows(6).any(|w| w == b"<scene") => Some(&MITSUBA),
             [b'<', ..] => Some(&XML),
             _ if text.contains(&0) => None,
             _ => of_words(text),

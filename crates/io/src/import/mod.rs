@@ -5,6 +5,7 @@
 mod color;
 mod content;
 mod gltf;
+mod mitsuba;
 mod obj;
 pub mod pbrt;
 pub(crate) mod ply;
@@ -75,6 +76,7 @@ pub struct Format {
 pub const FORMATS: &[Format] = &[
     Format { name: "glTF 2.0", suffixes: &["gltf", "glb"], read: gltf::read },
     Format { name: "pbrt", suffixes: &["pbrt"], read: |path, _, imported| pbrt::read(path, imported) },
+    Format { name: "Mitsuba", suffixes: &["xml"], read: mitsuba::read },
     Format { name: "Wavefront OBJ", suffixes: &["obj"], read: |path, _, imported| obj::read(path, imported) },
     Format { name: "PLY", suffixes: &["ply"], read: |path, _, imported| ply::read(path, imported) },
     Format { name: "STL", suffixes: &["stl"], read: |path, _, imported| stl::read(path, imported) },
@@ -86,6 +88,12 @@ pub fn open(path: &Path, reading: impl Into<Reading>) -> Imported {
     let reading = reading.into();
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
     let mut imported = Imported::new(folder, reading.limits);
+    if let Some(root) = &reading.root
+        && let Err(message) = imported.assets.widen(root)
+    {
+        imported.diagnostics.error(Location::None, message);
+        return imported;
+    }
     let unpacked = if suffix(path) == "gz" { path.with_extension("") } else { path.to_owned() };
     imported.desc.name = unpacked.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let suffix = suffix(&unpacked);

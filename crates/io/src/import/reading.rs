@@ -1,4 +1,6 @@
 //! How a file is read: limits, and which of several pictures that it may hold.
+use std::path::PathBuf;
+
 use durer_core::math::Interval;
 use durer_scene::Limits;
 
@@ -13,6 +15,10 @@ pub struct Reading {
     pub moment: Moment,
     /// The name, or else the index, of the set of materials that it wears; its own if `None`.
     pub variant: Option<String>,
+    /// Values for the names that a scene of Mitsuba leaves open (`-Dname=value`).
+    pub definitions: Vec<(String, String)>,
+    /// The folder that files may be read from: that of the scene, or one above it. The scene's own if `None`.
+    pub root: Option<PathBuf>,
 }
 
 /// Which animation of a file is played.

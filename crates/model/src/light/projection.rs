@@ -16,6 +16,7 @@ use super::{
     Cone, Light, POSITION, POWER,
     beam::{Beam, Pattern},
     picture::Picture,
+    spot,
 };
 
 /// The word `projection`.
@@ -28,16 +29,18 @@ struct Slide {
     picture: Picture,
     /// Half its width and height.
     half: [f32; 2],
+    /// A cone that it is seen through.
+    mask: Option<spot::Cone>,
     integral: f32,
 }
 
 impl Slide {
-    fn new(picture: Picture, fov: f32) -> Self {
+    fn new(picture: Picture, (fov, aspect): (f32, Option<f32>), mask: Option<spot::Cone>) -> Self {
         let opening = tan(0.5 * fov.to_radians());
         let [width, height] = picture.size().map(|n| n as f32);
-        let shorter = width.min(height);
-        let half = [opening * width / shorter, opening * height / shorter];
-        let mut slide = Self { picture, half, integral: 0.0 };
+        let aspect = aspect.unwrap_or(width / height);
+        let half = [opening * aspect.max(1.0), opening * (1.0 / aspect).max(1.0)];
+        let mut slide = Self { picture, half, mask, integral: 0.0 };
         slide.integral = slide.sum();
         slide
     }
@@ -51,10 +54,15 @@ impl Slide {
             for i in 0..width {
                 let x = [i, i + 1].map(|i| edge(i, width, self.half[0]));
                 let angle = upto(x[1], y[1]) - upto(x[0], y[1]) - upto(x[1], y[0]) + upto(x[0], y[0]);
-                sum += f64::from(self.picture.pixel(i, j).luminance()) * angle;
+                let middle = Vector3::from_f64([x[0] + x[1], y[0] + y[1], 2.0].into()).normalize();
+                sum += f64::from(self.picture.pixel(i, j).luminance() * self.share(middle)) * angle;
             }
         }
         sum as f32
+    }
+    /// What the mask leaves in a unit direction.
+    fn share(&self, d: Vector3) -> f32 {
+        self.mask.map_or(1.0, |cone| cone.share(d.z))
     }
 }
 
@@ -64,7 +72,8 @@ impl Pattern for Slide {
         if d.z <= 0.0 || d.x.abs() > w * d.z || d.y.abs() > h * d.z {
             return Color::BLACK;
         }
-        self.picture.nearest([0.5 + 0.5 * d.x / (w * d.z), 0.5 - 0.5 * d.y / (h * d.z)])
+        let seen = self.picture.nearest([0.5 + 0.5 * d.x / (w * d.z), 0.5 - 0.5 * d.y / (h * d.z)]);
+        seen * self.share(d)
     }
     fn cone(&self) -> Cone {
         let [w, h] = self.half;
@@ -94,6 +103,25 @@ impl Kind for Projection {
             ParamSpec::float("fov", 90.0, "Angle between the shorter picture's edges.")
                 .unit("degrees")
                 .range(0.01, 179.0),
+            ParamSpec::new(
+                "aspect",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Width by height of the picture as it is thrown; default: its own.",
+            )
+            .above(0.0, f32::INFINITY),
+            ParamSpec::new(
+                "coneangle",
+                ParamType::Float,
+                ParamDefault::Unset,
+                "Angle between the axis and a cone outside of which nothing is thrown.",
+            )
+            .unit("degrees")
+            .range(0.0, 180.0),
+            ParamSpec::float("conedeltaangle", 0.0, "Width of the fading rim inside that cone.")
+                .unit("degrees")
+                .range(0.0, 180.0),
+            spot::Cone::RIM,
             ParamSpec::float("scale", 1.0, "Factor on the intensity.").range(0.0, f32::INFINITY),
             ParamSpec { doc: "Total power; replaces the magnitude of the picture.", ..POWER },
             POSITION,
@@ -104,7 +132,14 @@ impl Kind for Projection {
         if !args.is_sound() {
             return None;
         }
-        let slide = Slide::new(picture.unwrap_or_else(Picture::placeholder), args.float("fov"));
+        let is_linear = args.text(spot::Cone::RIM.name) == "linear";
+        let outer = args.optional_float("coneangle");
+        let mask = outer.map(|outer| spot::Cone::new(outer, args.float("conedeltaangle"), is_linear));
+        let slide = Slide::new(
+            picture.unwrap_or_else(Picture::placeholder),
+            (args.float("fov"), args.optional_float("aspect")),
+            mask,
+        );
         let factor = factor(args, slide.integral)?;
         Some(Box::new(Beam::new(args.triple("from").into(), slide, Color::gray(factor).into())))
     }

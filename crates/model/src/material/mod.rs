@@ -20,6 +20,7 @@ mod phong;
 mod principled;
 mod roughness;
 mod sent;
+mod sides;
 mod subsurface;
 mod thindielectric;
 
@@ -44,6 +45,7 @@ pub use self::{
     phong::Phong,
     principled::Principled,
     sent::{Arriving, GlossRays, Sent},
+    sides::Sides,
     subsurface::Subsurface,
     thindielectric::ThinDielectric,
 };
@@ -126,6 +128,7 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Subsurface>(),
     Entry::of::<Mix>(),
     Entry::of::<Mask>(),
+    Entry::of::<Sides>(),
 ];
 
 /// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.

@@ -1,7 +1,7 @@
 //! Values on a grid over the unit cube, straight lines between them.
 //!
 //! Value `i` of `n` along an axis stands at `(i + 1/2) / n`; outside the grid there is nothing. (As in pbrt-v4: what is drawn
-//! fades over the last half step.)
+//! fades over the last half step.) Or the outermost values go on to the sides of the cube, as in Mitsuba.
 use std::ops::{Add, Mul};
 
 /// A grid; x changes fastest.
@@ -9,6 +9,8 @@ use std::ops::{Add, Mul};
 pub(super) struct Grid<T> {
     size: [usize; 3],
     values: Vec<T>,
+    /// The outermost values go on.
+    clamped: bool,
 }
 
 /// What can be mixed.
@@ -20,7 +22,11 @@ impl<T: Mixed> Grid<T> {
     pub(super) fn new(size: [usize; 3], values: Vec<T>) -> Option<Self> {
         let [nx, ny, nz] = size;
         let count = nx.checked_mul(ny)?.checked_mul(nz)?;
-        (count == values.len() && count > 0).then_some(Self { size, values })
+        (count == values.len() && count > 0).then_some(Self { size, values, clamped: false })
+    }
+    /// The same, with values that go on where `clamped`.
+    pub(super) fn clamped(self, clamped: bool) -> Self {
+        Self { clamped, ..self }
     }
     pub(super) fn size(&self) -> [usize; 3] {
         self.size
@@ -30,6 +36,10 @@ impl<T: Mixed> Grid<T> {
     }
     fn value(&self, [x, y, z]: [i64; 3]) -> T {
         let [nx, ny, nz] = self.size.map(|n| n as i64);
+        if self.clamped {
+            let [x, y, z] = [(x, nx), (y, ny), (z, nz)].map(|(i, n)| i.clamp(0, n - 1));
+            return self.values[((z * ny + y) * nx + x) as usize];
+        }
         let is_in = (0..nx).contains(&x) && (0..ny).contains(&y) && (0..nz).contains(&z);
         if is_in { self.values[((z * ny + y) * nx + x) as usize] } else { T::default() }
     }
@@ -82,6 +92,11 @@ mod tests {
         // Half of what is there at the side, nothing further out.
         assert_eq!(grid.at([1.0, 0.25, 0.25]), 0.5);
         assert_eq!(grid.at([1.3, 0.25, 0.25]), 0.0);
+        let on = grid.clamped(true);
+        assert_eq!(
+            (on.at([1.0, 0.25, 0.25]), on.at([0.0, 0.0, 0.0]), on.at([0.5, 0.5, 0.5])),
+            (1.0, 0.0, 3.5)
+        );
         assert!(Grid::new([2, 2, 3], vec![0.0f32; 8]).is_none());
     }
 }

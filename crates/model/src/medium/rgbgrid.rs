@@ -72,6 +72,7 @@ impl Kind for RgbGrid {
             Size::Z,
             Size::LOW,
             Size::HIGH,
+            Size::EDGES,
             Matter::SCALE,
             Matter::G,
             Phase::WHICH,

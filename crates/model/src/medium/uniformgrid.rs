@@ -29,6 +29,13 @@ impl Size {
     pub(super) const HIGH: ParamSpec =
         ParamSpec::new("p1", ParamType::Point3, ParamDefault::Triple([1.0; 3]), "The opposite corner, m.");
 
+    pub(super) const EDGES: ParamSpec = ParamSpec::new(
+        "edges",
+        ParamType::Choice(&["fade", "clamp"]),
+        ParamDefault::Text("fade"),
+        "Whether the box fades over its last half step, as in pbrt-v4, or the outermost values go on to its sides.",
+    );
+
     /// Reads it.
     pub(super) fn read(args: &Args<'_>) -> [usize; 3] {
         ["nx", "ny", "nz"].map(|name| args.int(name).unsigned_abs() as usize)
@@ -59,7 +66,8 @@ impl Size {
             let [x, y, z] = size;
             args.error(name, format!("\"{name}\" has {count} values, expected nx ny nz = {x} x {y} x {z}"));
         }
-        grid
+        let clamped = args.text(Self::EDGES.name) == "clamp";
+        grid.map(|grid| grid.clamped(clamped))
     }
 }
 
@@ -82,6 +90,7 @@ impl Kind for UniformGrid {
             Size::Z,
             Size::LOW,
             Size::HIGH,
+            Size::EDGES,
             Matter::PRESET,
             Matter::SIGMA_A,
             Matter::SIGMA_S,

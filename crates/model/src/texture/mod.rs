@@ -17,6 +17,7 @@ mod mix;
 mod noise;
 mod scale;
 mod value;
+mod vertexcolor;
 mod windy;
 
 use std::{cell::RefCell, fmt::Debug};
@@ -43,6 +44,7 @@ pub use marble::Marble;
 pub use mix::Mix;
 pub use scale::Scale;
 pub use value::Value;
+pub use vertexcolor::VertexColor;
 pub use windy::Windy;
 
 /// Where a texture is looked up.
@@ -142,6 +144,7 @@ pub const COLOR_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<Marble>(),
     Entry::of::<Mix<ColorInput>>(),
     Entry::of::<Scale<ColorInput>>(),
+    Entry::of::<VertexColor>(),
     Entry::of::<Windy>(),
     Entry::of::<Wrinkled>(),
 ];
@@ -158,6 +161,7 @@ pub const FLOAT_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<Marble>(),
     Entry::of::<Mix<FloatInput>>(),
     Entry::of::<Scale<FloatInput>>(),
+    Entry::of::<VertexColor>(),
     Entry::of::<Windy>(),
     Entry::of::<Wrinkled>(),
 ];

@@ -17,12 +17,17 @@ mod piece;
 mod smooth;
 mod texture;
 
-use std::path::Path;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use durer_scene::Location;
+use durer_scene::{AssetError, Limits, Location, Mesh};
 use rayon::prelude::*;
 
+pub(super) use self::smooth::weighted_normals;
 use self::{
+    library::Library,
     model::Model,
     piece::{Counts, Piece},
 };
@@ -62,12 +67,43 @@ fn no_text(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
+/// The meshes in `bytes`, which messages call `name`, without their materials.
+pub(crate) fn meshes(bytes: &[u8], name: &str, limits: Limits) -> Result<Vec<Arc<Mesh>>, AssetError> {
+    let bytes = with_line_feeds(bytes.to_vec());
+    let fail = |reason| AssetError::Format { path: name.to_owned(), reason };
+    if let Some(what) = no_text(&bytes) {
+        return Err(fail(what.to_owned()));
+    }
+    let whole = Part::whole(&bytes);
+    let text = whole.split(if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }).1;
+    let mut complaints = Vec::new();
+    let mut imported = Imported::new(PathBuf::new(), limits);
+    if let Some(model) = model(text, &mut complaints) {
+        assemble::shapes(text, model, &Library::default(), &mut complaints, &mut imported);
+    }
+    match complaints.iter().find(|c| c.severity == durer_scene::Severity::Error) {
+        Some(wrong) => Err(fail(wrong.line(&bytes))),
+        None => Ok(imported.desc.meshes),
+    }
+}
+
 fn scene(text: Part<'_>, imported: &mut Imported) -> Vec<Complaint> {
+    let mut complaints = Vec::new();
+    if let Some(model) = model(text, &mut complaints) {
+        let names = library::load(text, &model, &mut complaints, imported);
+        assemble::shapes(text, model, &names, &mut complaints, imported);
+    }
+    complaints
+}
+
+/// What a text says; `None` after an error.
+fn model(text: Part<'_>, complaints: &mut Vec<Complaint>) -> Option<Model> {
     let cuts = text.pieces(|before, _| !is_continued(before));
     let counts: Vec<Counts> = cuts.par_iter().map(|cut| piece::count(*cut)).collect();
     let total = counts.iter().fold(Counts::default(), |sum, c| sum.plus(c));
     if total.exceeds_indices() {
-        return vec![Complaint::whole("more vertices than durer can count")];
+        complaints.push(Complaint::whole("more vertices than durer can count"));
+        return None;
     }
     let mut before = Counts::default();
     let mut starts = Vec::with_capacity(cuts.len());
@@ -78,7 +114,7 @@ fn scene(text: Part<'_>, imported: &mut Imported) -> Vec<Complaint> {
     let pieces: Vec<Piece> =
         cuts.par_iter().zip(starts).map(|(cut, start)| piece::read(*cut, start, total)).collect();
     let mut model = Model::gather(pieces);
-    let mut complaints = grouped(std::mem::take(&mut model.complaints));
+    *complaints = grouped(std::mem::take(&mut model.complaints));
     complaints.retain({
         let mut errors = 0;
         move |c| {
@@ -87,10 +123,8 @@ fn scene(text: Part<'_>, imported: &mut Imported) -> Vec<Complaint> {
         }
     });
     if complaints.iter().any(|c| c.severity == durer_scene::Severity::Error) {
-        return complaints;
+        return None;
     }
     smooth::add_normals(&mut model);
-    let names = library::load(text, &model, &mut complaints, imported);
-    assemble::shapes(text, model, &names, &mut complaints, imported);
-    complaints
+    Some(model)
 }

@@ -61,7 +61,7 @@ fn at(positions: &[Point3], v: u32) -> DVec3 {
 }
 
 /// The unit normal of a polygon times the angle at each of its corners.
-fn weighted_normals(points: &[DVec3]) -> impl Iterator<Item = DVec3> {
+pub(in crate::import) fn weighted_normals(points: &[DVec3]) -> impl Iterator<Item = DVec3> {
     let normal = newell(points).normalize_or_zero();
     let before = points.iter().cycle().skip(points.len().saturating_sub(1));
     let after = points.iter().cycle().skip(1);

@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, imported: &mut Imported) {
         }
     };
     let mut complaints = Vec::new();
-    match parse(&bytes) {
+    match parse(&bytes, Paint::Vertices) {
         Ok(read) => {
             complaints = read.warnings;
             if read.mesh.indices.is_empty() {
@@ -76,19 +76,36 @@ fn no_faces(mesh: &Mesh) -> Complaint {
 
 /// The triangles in `bytes`, which messages call `name`.
 pub(crate) fn mesh(bytes: &[u8], name: &str) -> Result<Mesh, AssetError> {
+    painted(bytes, name, Paint::Vertices)
+}
+
+/// Whose colours a mesh gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Paint {
+    /// Those of its vertices.
+    Vertices,
+    /// Those of its faces, which share no vertices then.
+    Faces,
+}
+
+/// The triangles in `bytes`, which messages call `name`, with the colours of their vertices or faces.
+pub(crate) fn painted(bytes: &[u8], name: &str, paint: Paint) -> Result<Mesh, AssetError> {
     let fail = |reason| AssetError::Format { path: name.to_owned(), reason };
     let converted = header::with_line_feeds(bytes);
     let bytes = converted.as_deref().unwrap_or(bytes);
-    let read = parse(bytes).map_err(|c| fail(c.line(bytes)))?;
+    let read = parse(bytes, paint).map_err(|c| fail(c.line(bytes)))?;
     if read.mesh.indices.is_empty() {
         return Err(fail(no_faces(&read.mesh).message));
     }
     Ok(read.mesh)
 }
 
-fn parse(bytes: &[u8]) -> Result<Read, Complaint> {
+fn parse(bytes: &[u8], paint: Paint) -> Result<Read, Complaint> {
     let header = header::parse(bytes)?;
-    let rows = body::read(&header, bytes)?;
+    let mut rows = body::read(&header, bytes)?;
+    if paint == Paint::Faces {
+        paint_faces(&mut rows);
+    }
     let mut warnings = header.warnings;
     let mesh = assemble(rows, &mut warnings);
     mesh.validate().map_err(|e| Complaint::whole(e.to_string()))?;
@@ -156,6 +173,23 @@ fn split_vertices(rows: &mut Rows) {
     rows.tangents = gather(&rows.tangents, &sources);
     rows.second_uvs = gather(&rows.second_uvs, &sources);
     rows.uvs = uvs;
+}
+
+/// Gives all corners vertices of their own, in the colour of their face.
+fn paint_faces(rows: &mut Rows) {
+    let sources: Vec<usize> = rows.corners.iter().map(|&v| v as usize).collect();
+    let face_of = |corner: usize| match rows.ends.is_empty() {
+        true => corner / 3,
+        false => rows.ends.partition_point(|&end| end <= corner),
+    };
+    let color = |corner: usize| rows.face_colors.get(face_of(corner)).copied().unwrap_or([1.0; 4]);
+    rows.colors = (0..sources.len()).map(color).collect();
+    rows.positions = gather(&rows.positions, &sources);
+    rows.normals = gather(&rows.normals, &sources);
+    rows.uvs = gather(&rows.uvs, &sources);
+    rows.tangents = gather(&rows.tangents, &sources);
+    rows.second_uvs = gather(&rows.second_uvs, &sources);
+    rows.corners = (0..sources.len() as u32).collect();
 }
 
 fn gather<T: Copy>(list: &[T], which: &[usize]) -> Vec<T> {

@@ -21,10 +21,10 @@ const NAMES: [(usize, &[&str]); ROW] = [
     (5, &["nz", "normal_z"]),
     (6, &["u", "s", "texture_u", "texture_s"]),
     (7, &["v", "t", "texture_v", "texture_t"]),
-    (8, &["red", "diffuse_red", "r"]),
-    (9, &["green", "diffuse_green", "g"]),
-    (10, &["blue", "diffuse_blue", "b"]),
-    (11, &["alpha", "diffuse_alpha", "a"]),
+    (8, &["red", "diffuse_red", "r", "color_0"]),
+    (9, &["green", "diffuse_green", "g", "color_1"]),
+    (10, &["blue", "diffuse_blue", "b", "color_2"]),
+    (11, &["alpha", "diffuse_alpha", "a", "weight_0"]),
     (12, &["tangent_x"]),
     (13, &["tangent_y"]),
     (14, &["tangent_z"]),
@@ -44,6 +44,8 @@ pub(super) enum Role {
         indices: usize,
         coords: Option<usize>,
         strips: bool,
+        /// The columns of colours that faces bring, and what they are divided by; see [`Vertices`].
+        colors: Option<([Option<usize>; 4], f32)>,
     },
     /// Passed over.
     Other,
@@ -74,7 +76,7 @@ pub(super) fn role(element: &Element) -> Result<Role, Complaint> {
             let indices = element.find(&["vertex_indices", "vertex_index"]).and_then(lists);
             let coords = element.find(&["texcoord"]).and_then(lists);
             match indices {
-                Some(indices) => Ok(Role::Faces { indices, coords, strips }),
+                Some(indices) => Ok(Role::Faces { indices, coords, strips, colors: face_colors(element) }),
                 None if element.count == 0 => Ok(Role::Other),
                 None => {
                     let message = format!("the element {} has no list \"vertex_indices\"", element.name);
@@ -84,6 +86,37 @@ pub(super) fn role(element: &Element) -> Result<Role, Complaint> {
         }
         _ => Ok(Role::Other),
     }
+}
+
+/// The columns of the colours of faces; none without red, green and blue, but a weight alone will do.
+fn face_colors(element: &Element) -> Option<([Option<usize>; 4], f32)> {
+    let scalar = |names: &[&str]| element.find(names).filter(|(_, p)| matches!(p.shape, Shape::Scalar(_)));
+    let found: [Option<(usize, &super::header::Property)>; 4] =
+        std::array::from_fn(|i| NAMES.get(8 + i).and_then(|(_, names)| scalar(names)));
+    let scale = match found.iter().flatten().next()?.1.shape {
+        Shape::Scalar(ty) => scale(ty),
+        Shape::List { .. } => 1.0,
+    };
+    Some((found.map(|f| f.map(|(i, _)| i)), scale))
+}
+
+/// What a colour is divided by before it is decoded.
+fn scale(ty: Scalar) -> f32 {
+    match ty {
+        Scalar::U8 => 255.0,
+        Scalar::U16 => 65535.0,
+        _ => 1.0,
+    }
+}
+
+/// The colour that these numbers of a row say; alpha may be missing.
+fn colored([r, g, b, a]: [f32; 4], scale: f32) -> [f32; 4] {
+    let a = if a.is_nan() { 1.0 } else { (a / scale).clamp(0.0, 1.0) };
+    let [r, g, b] = [r, g, b].map(|c| match scale {
+        1.0 => c.max(0.0),
+        _ => linear(c / scale),
+    });
+    [r, g, b, a]
 }
 
 fn vertices(element: &Element) -> Result<Vertices, Complaint> {
@@ -106,11 +139,6 @@ fn vertices(element: &Element) -> Result<Vertices, Complaint> {
             *slot = Some(place);
         }
     }
-    let scale = |ty| match ty {
-        Scalar::U8 => 255.0,
-        Scalar::U16 => 65535.0,
-        _ => 1.0,
-    };
     Ok(Vertices {
         slots,
         normals: nx.and(ny).and(nz).is_some(),
@@ -133,6 +161,8 @@ pub(super) struct Rows {
     pub(super) corners: Vec<u32>,
     /// Texture coordinates of the corners, if faces bring their own.
     pub(super) coords: Vec<Point2>,
+    /// A colour of each face, if faces bring their own.
+    pub(super) face_colors: Vec<[f32; 4]>,
     /// Where each polygon ends in `corners`; empty as long as all are triangles.
     pub(super) ends: Vec<usize>,
     /// Lines with more numbers than their table has.
@@ -161,6 +191,7 @@ impl Rows {
         self.tangents.append(&mut later.tangents);
         self.second_uvs.append(&mut later.second_uvs);
         self.corners.append(&mut later.corners);
+        self.face_colors.append(&mut later.face_colors);
         self.coords.append(&mut later.coords);
     }
     /// Makes `ends` say what it left unsaid.
@@ -227,12 +258,7 @@ impl Rows {
             self.uvs.push(Point2::new(u, v));
         }
         if let Some(scale) = columns.colors {
-            let a = if a.is_nan() { 1.0 } else { (a / scale).clamp(0.0, 1.0) };
-            let [r, g, b] = [r, g, b].map(|c| match scale {
-                1.0 => c.max(0.0),
-                _ => linear(c / scale),
-            });
-            self.colors.push([r, g, b, a]);
+            self.colors.push(colored([r, g, b, a], scale));
         }
         if columns.tangents {
             self.tangents.push([tx, ty, tz, tw]);
@@ -250,10 +276,11 @@ impl Rows {
         vertices: usize,
         numbers: &mut impl Numbers,
     ) -> Result<(), Complaint> {
-        let Role::Faces { indices, coords, strips } = *role else {
+        let Role::Faces { indices, coords, strips, colors } = *role else {
             return Ok(());
         };
         let (start, mut own) = (self.corners.len(), Vec::new());
+        let mut color = [0.0, 0.0, 0.0, f32::NAN];
         for (i, property) in element.properties.iter().enumerate() {
             match property.shape {
                 Shape::List { count, item } if i == indices => {
@@ -279,11 +306,19 @@ impl Rows {
                     }
                     numbers.skip(item, length % 2)?;
                 }
+                Shape::Scalar(ty) if colors.is_some() => {
+                    let place = colors.and_then(|(columns, _)| columns.iter().position(|c| *c == Some(i)));
+                    let value = numbers.float(ty)?;
+                    if let Some(place) = place.and_then(|p| color.get_mut(p)) {
+                        *place = value;
+                    }
+                }
                 shape => skip(shape, numbers)?,
             }
         }
         if !strips {
             self.close(start);
+            self.face_colors.extend(colors.map(|(_, scale)| colored(color, scale)));
             let length = self.corners.len();
             if own.len() == length - start && !own.is_empty() {
                 self.coords.resize(start, Point2::default());

@@ -1,0 +1,248 @@
+//! Mitsuba's XML, piece by piece: what is read of it, and what is said of what is wrong.
+#![allow(clippy::expect_used, clippy::indexing_slicing, reason = "a test that fails may panic")]
+use durer_core::glam::DVec3;
+use durer_io::import::{Imported, Reading, open};
+use durer_scene::{Data, Limits, Severity, ShapeSource};
+
+/// A scene of version 3 with this in it.
+fn scene(inside: &str) -> Imported {
+    text(&format!("<scene version=\"3.0.0\">\n{inside}\n</scene>"), Reading::default())
+}
+
+fn text(text: &str, reading: Reading) -> Imported {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.xml");
+    std::fs::write(&path, text).expect("written");
+    std::fs::write(
+        folder.path().join("triangle.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n",
+    )
+    .expect("written");
+    std::fs::write(
+        folder.path().join("loop.xml"),
+        "<scene version='3.0.0'><include filename='loop.xml'/></scene>",
+    )
+    .expect("written");
+    std::fs::write(folder.path().join("a.spd"), "# nm value\n400 0.25\n700 0.5\n").expect("written");
+    open(&path, reading)
+}
+
+/// Line, column, message and hint of each complaint of this kind.
+fn told(imported: &Imported, severity: Severity) -> Vec<String> {
+    let of = imported.diagnostics.iter().filter(|d| d.severity == severity);
+    of.map(|d| {
+        let place = match &d.at {
+            durer_scene::Location::Span(span) => {
+                let (line, column) = imported.sources.line_column(span.source, span.start);
+                format!("{line}:{column}: ")
+            }
+            _ => String::new(),
+        };
+        let hint = d.hint.as_ref().map(|h| format!(" ({h})")).unwrap_or_default();
+        format!("{place}{}{hint}", d.message)
+    })
+    .collect()
+}
+
+fn errors(inside: &str) -> Vec<String> {
+    told(&scene(inside), Severity::Error)
+}
+
+/// Numbers of a parameter of the last material that is no `sides`.
+fn material(imported: &Imported, name: &str) -> Vec<f32> {
+    let of = imported.desc.materials.iter().rev().find(|m| m.node.kind != "sides").expect("a material");
+    match of.node.params.get(name).map(|p| &p.data) {
+        Some(Data::Floats(v)) => v.clone(),
+        other => panic!("{name}: {other:?} of {:?}", of.node),
+    }
+}
+
+#[test]
+fn unknown_words_are_told_with_their_place_and_the_nearest_one() {
+    assert_eq!(
+        errors("<shape type=\"spere\"/>"),
+        ["2:14: unknown shape \"spere\" (did you mean \"sphere\"?)"]
+    );
+    let wrong = "<shape type=\"sphere\"><float name=\"radios\" value=\"2\"/></shape>";
+    assert_eq!(
+        errors(wrong),
+        ["2:50: unknown parameter of shape \"sphere\" \"radios\" (did you mean \"radius\"?)"]
+    );
+    assert_eq!(
+        errors("<shap type=\"sphere\"/>"),
+        ["2:1: unknown element \"shap\" (did you mean \"shape\"?)"]
+    );
+    assert_eq!(
+        errors("<shape type=\"sphere\" nmae=\"x\"/>"),
+        ["2:22: unknown attribute of <shape> \"nmae\" (did you mean \"name\"?)"]
+    );
+    let glass = "<bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"wader\"/></bsdf>";
+    assert_eq!(errors(glass), ["2:55: unknown substance \"wader\" (did you mean \"water\"?)"]);
+}
+
+#[test]
+fn values_that_are_none_are_told() {
+    let radius = |value: &str| {
+        errors(&format!("<shape type=\"sphere\"><float name=\"radius\" value=\"{value}\"/></shape>"))
+    };
+    assert_eq!(radius("two"), ["2:50: expected a number, found \"two\""]);
+    assert_eq!(radius("1e999"), ["2:50: expected a number, found \"1e999\""]);
+    assert_eq!(radius("-1"), ["2:50: \"radius\" is -1, expected a number above 0"]);
+    let wrong = "<shape type=\"sphere\"><string name=\"radius\" value=\"1\"/></shape>";
+    assert_eq!(errors(wrong), ["2:51: \"radius\" is a string, expected a number"]);
+    let flat = "<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"0\"/></transform></shape>";
+    assert_eq!(errors(flat), ["2:22: this transform makes everything flat"]);
+    assert_eq!(errors("<shape/>"), ["2:1: <shape> has no attribute \"type\""]);
+    assert_eq!(
+        errors("<float name=\"x\" value=\"1\"/>"),
+        ["2:1: <float> stands for itself: it belongs in an object"]
+    );
+}
+
+#[test]
+fn names_stand_for_values_and_the_users_go_first() {
+    let inside = "<default name=\"r\" value=\"2\"/><shape type=\"sphere\"><float name=\"radius\" value=\"$r\"/></shape>";
+    let radius = |imported: Imported| match &imported.desc.shapes[0].source {
+        ShapeSource::Node(node) => match node.params.get("radius").map(|p| &p.data) {
+            Some(Data::Floats(v)) => v[0],
+            _ => panic!("{node:?}"),
+        },
+        ShapeSource::Mesh(_) => panic!("a mesh"),
+    };
+    assert_eq!(radius(scene(inside)), 2.0);
+    let reading = Reading { definitions: vec![("r".to_owned(), "5".to_owned())], ..Reading::default() };
+    assert_eq!(radius(text(&format!("<scene version='3.0.0'>{inside}</scene>"), reading)), 5.0);
+    let missing = inside.replace("$r", "$s");
+    assert_eq!(errors(&missing), ["2:79: unknown value \"$s\" (valid: r)"]);
+}
+
+#[test]
+fn references_are_found_wherever_they_stand() {
+    let shape = "<shape type=\"sphere\"><ref id=\"red\"/></shape>";
+    let red = "<bsdf type=\"diffuse\" id=\"red\"><rgb name=\"reflectance\" value=\"1 0 0\"/></bsdf>";
+    for inside in [format!("{shape}{red}"), format!("{red}{shape}")] {
+        let imported = scene(&inside);
+        assert_eq!(told(&imported, Severity::Error), Vec::<String>::new());
+        assert_eq!(material(&imported, "reflectance"), [1.0, 0.0, 0.0]);
+        assert_eq!(imported.desc.materials.len(), 2, "one material and its sides");
+    }
+    assert_eq!(
+        errors(&shape.replace("red", "rad"))[0],
+        "2:22: unknown id \"rad\" (the scene defines no ids)"
+    );
+    let alias = format!("{red}<alias id=\"red\" as=\"rouge\"/>{}", shape.replace("red", "rouge"));
+    assert_eq!(errors(&alias), Vec::<String>::new());
+}
+
+#[test]
+fn what_contains_itself_is_told() {
+    let knot = "<bsdf type=\"twosided\" id=\"a\"><ref id=\"a\"/></bsdf>";
+    assert!(errors(knot)[0].contains("is in itself"), "{:?}", errors(knot));
+    let group = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"instance\"><ref id=\"g\"/></shape></shape>\
+                 <shape type=\"instance\"><ref id=\"g\"/></shape>";
+    assert!(errors(group)[0].contains("is in itself"), "{:?}", errors(group));
+    assert!(errors("<include filename=\"loop.xml\"/>")[0].contains("includes itself"));
+    let deep = "<bsdf type=\"twosided\">".repeat(400) + &"</bsdf>".repeat(400);
+    assert!(errors(&deep)[0].contains("deep"), "{:?}", errors(&deep)[0]);
+}
+
+#[test]
+fn xml_that_is_none_is_told_with_its_place() {
+    let of = |whole: &str| told(&text(whole, Reading::default()), Severity::Error);
+    let wrong = of("<scene version=\"3.0.0\">\n  <shape type=\"sphere\">\n</scene>");
+    assert!(wrong[0].starts_with("3:") && wrong[0].contains("no proper XML"), "{wrong:?}");
+    let bomb =
+        "<!DOCTYPE s [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]><scene version=\"3.0.0\">&b;</scene>";
+    assert!(of(bomb)[0].contains("DTD"), "{:?}", of(bomb));
+    assert!(of("<scene version=\"3.0.0\"/>").is_empty());
+    assert!(of("<scene/>")[0].contains("no version"));
+    for end in 0..bomb.len() {
+        drop(of(&bomb[..end]));
+    }
+}
+
+#[test]
+fn steps_of_a_transform_act_one_after_another() {
+    let imported = scene(
+        "<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"2\"/><translate x=\"1\"/>\
+         <rotate z=\"1\" angle=\"90\"/></transform></shape>",
+    );
+    let placed = imported.desc.shapes[0].world_from_object.at(0.0);
+    // (1, 0, 0) -> (2, 0, 0) -> (3, 0, 0) -> (0, 3, 0)
+    assert!(placed.transform_point3(DVec3::X).abs_diff_eq(DVec3::new(0.0, 3.0, 0.0), 1e-12));
+}
+
+#[test]
+fn cameras_have_x_to_the_right_of_what_they_look_at() {
+    let imported = scene(
+        "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"0, 0, -5\" target=\"0, 0, 0\" \
+         up=\"0, 1, 0\"/></transform></sensor>",
+    );
+    let placed = imported.desc.cameras[0].world_from_camera.at(0.0);
+    // Seen from -z with y up, the world's +x is to the left in right-handed space.
+    assert_eq!(placed.transform_vector3(DVec3::X), DVec3::NEG_X);
+    assert_eq!(placed.transform_vector3(DVec3::Z), DVec3::Z);
+    assert_eq!((imported.desc.film.width, imported.desc.film.height), (Some(768), Some(576)));
+}
+
+#[test]
+fn spectra_are_numbers_pairs_or_files() {
+    let of = |spectrum: &str| {
+        let imported = scene(&format!("<bsdf type=\"diffuse\">{spectrum}</bsdf>"));
+        assert_eq!(told(&imported, Severity::Error), Vec::<String>::new());
+        material(&imported, "reflectance")
+    };
+    assert_eq!(of("<spectrum name=\"reflectance\" value=\"0.25\"/>"), [0.25; 3]);
+    assert_eq!(of("<spectrum name=\"reflectance\" value=\"400:0.25, 700:0.5\"/>"), [400.0, 0.25, 700.0, 0.5]);
+    assert_eq!(of("<spectrum name=\"reflectance\" filename=\"a.spd\"/>"), [400.0, 0.25, 700.0, 0.5]);
+    assert_eq!(of("<rgb name=\"reflectance\" value=\"#ff0000\"/>"), [1.0, 0.0, 0.0]);
+    let falling = "<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"700:1, 400:1\"/></bsdf>";
+    assert!(errors(falling)[0].contains("must rise"), "{:?}", errors(falling));
+}
+
+#[test]
+fn files_of_mitsuba_0_are_renamed_and_that_is_noted() {
+    let old = "<scene version=\"0.5.0\"><integrator type=\"path\"><integer name=\"maxDepth\" value=\"4\"/></integrator>\
+               <shape type=\"sphere\"><transform name=\"toWorld\"><translate x=\"1\"/></transform></shape></scene>";
+    let imported = text(old, Reading::default());
+    assert_eq!(told(&imported, Severity::Error), Vec::<String>::new());
+    assert!(told(&imported, Severity::Note)[0].contains("Mitsuba 0.5.0"));
+    let node = imported.desc.integrator.expect("paths");
+    assert_eq!(node.params.get("maxdepth").map(|p| p.data.clone()), Some(Data::Ints(vec![3])));
+    assert_eq!(imported.desc.shapes[0].world_from_object.at(0.0).translation, DVec3::X);
+}
+
+#[test]
+fn meshes_without_normals_are_smooth_unless_their_faces_are_flat() {
+    let of = |more: &str| {
+        let file = "<string name=\"filename\" value=\"triangle.obj\"/>";
+        let imported = scene(&format!("<shape type=\"obj\">{file}{more}</shape>"));
+        assert_eq!(told(&imported, Severity::Error), Vec::<String>::new());
+        imported.desc.meshes[0].clone()
+    };
+    assert_eq!(of("").normals.len(), 3);
+    assert!(of("<boolean name=\"face_normals\" value=\"true\"/>").normals.is_empty());
+    assert_eq!(of("").uvs[2].y, 1.0);
+    assert_eq!(of("<boolean name=\"flip_tex_coords\" value=\"false\"/>").uvs[2].y, 0.0);
+}
+
+#[test]
+fn plastic_reflects_what_makes_our_formula_mitsubas() {
+    let of = |more: &str| {
+        let color =
+            "<rgb name=\"diffuse_reflectance\" value=\"0.5, 0, 1\"/><float name=\"int_ior\" value=\"1.5\"/>";
+        material(&scene(&format!("<bsdf type=\"plastic\">{color}{more}</bsdf>")), "reflectance")
+    };
+    assert_eq!(of("<boolean name=\"nonlinear\" value=\"true\"/>"), [0.5, 0.0, 1.0]);
+    // r / (1 - F + r F) with F = 0.596 (index 1.5).
+    let [half, zero, one] = of("")[..] else { panic!() };
+    assert!((half - 0.5 / (1.0 - 0.596 + 0.5 * 0.596)).abs() < 2e-3, "{half}");
+    assert_eq!((zero, one), (0.0, 1.0));
+}
+
+#[test]
+fn small_limits_are_kept() {
+    let limits = Limits { file_bytes: 20, ..Limits::default() };
+    let imported = text("<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>", limits.into());
+    assert!(imported.diagnostics.has_errors());
+}
