@@ -69,7 +69,7 @@ enum Command {
     Cost(Box<cost::Args>),
     Draw(Box<draw::Args>),
     Convert(Box<convert::Args>),
-    Info(info::Args),
+    Info(Box<info::Args>),
     Scenes(scenes::Args),
     Completions(completions::Args),
     Man(man::Args),

@@ -20,7 +20,7 @@ fn body(version: u16, m: u32, double: bool, flags: u32) -> Vec<u8> {
         false => raw.extend((v as f32).to_le_bytes()),
     };
     for i in 0..4u32 {
-        [m, i, m + i].map(|v| put(v.into()));
+        [m, i, m + i].into_iter().for_each(|v| put(v.into()));
     }
     if flags & NORMALS != 0 {
         (0..4).for_each(|_| [0.0, 0.0, 1.0].into_iter().for_each(&mut put));
