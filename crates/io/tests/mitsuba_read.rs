@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, clippy::indexing_slicing, reason = "a test that fails may panic")]
 use durer_core::glam::DVec3;
 use durer_io::import::{Imported, Reading, open};
-use durer_scene::{Data, Limits, Severity, ShapeSource};
+use durer_scene::{Crop, Data, Limits, Severity, ShapeSource};
 
 /// A scene of version 3 with this in it.
 fn scene(inside: &str) -> Imported {
@@ -245,4 +245,22 @@ fn small_limits_are_kept() {
     let limits = Limits { file_bytes: 20, ..Limits::default() };
     let imported = text("<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>", limits.into());
     assert!(imported.diagnostics.has_errors());
+}
+
+#[test]
+fn films_are_cropped() {
+    let of = |words: &str| {
+        scene(&format!(
+            "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>\
+             <integer name=\"height\" value=\"6\"/>{words}</film></sensor>"
+        ))
+    };
+    let crop = |name: &str, value: u32| format!("<integer name=\"crop_{name}\" value=\"{value}\"/>");
+    let part = of(&[crop("offset_x", 2), crop("width", 5), crop("offset_y", 1)].concat());
+    assert_eq!(told(&part, Severity::Error), Vec::<String>::new());
+    assert_eq!(part.desc.film.crop, Some(Crop::Pixels([2, 7, 1, 6])));
+    assert_eq!(of(&crop("width", 8)).desc.film.crop, None);
+    let outside = told(&of(&(crop("offset_x", 4) + &crop("width", 5))), Severity::Error);
+    assert_eq!(outside.len(), 1);
+    assert!(outside[0].contains("a part of 5 x 6 pixels from 4, 0 on is not within 8 x 6"), "{outside:?}");
 }

@@ -5,7 +5,7 @@ use durer_core::{
     glam::{DAffine3, DVec3},
     math::Motion,
 };
-use durer_scene::{CameraDesc, Data, MediumInterface, Params, ValueType};
+use durer_scene::{CameraDesc, Crop, Data, MediumInterface, Params, ValueType};
 
 use super::{
     medium,
@@ -146,6 +146,24 @@ fn field_of_view(world: &mut World<'_>, object: &Object, aspect: f64) -> (f64, &
     (across(36f64.hypot(24.0) / length), "x")
 }
 
+/// The part of a film that is wanted.
+const CROP: [&str; 4] = ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"];
+
+fn crop(world: &mut World<'_>, film: &Object, (width, height): (f64, f64)) -> Option<Crop> {
+    let [x, y, w, h] = CROP;
+    let mut number = |name: &str, usual: f64| film.number_or(name, usual, world.said);
+    let (x, y) = (number(x, 0.0), number(y, 0.0));
+    let (w, h) = (number(w, width - x), number(h, height - y));
+    let fits = x >= 0.0 && y >= 0.0 && w >= 1.0 && h >= 1.0 && x + w <= width && y + h <= height;
+    if !fits {
+        let message = format!("a part of {w} x {h} pixels from {x}, {y} on is not within {width} x {height}");
+        world.said.error(film.at, message);
+        return None;
+    }
+    let is_all = (w, h) == (width, height);
+    (!is_all).then(|| Crop::Pixels([x, x + w, y, y + h].map(|edge| edge as u32)))
+}
+
 /// Reads the film, the filter in it and the sampler beside it; says how wide and high the picture is.
 fn film(world: &mut World<'_>, sensor: &Object) -> (f64, f64) {
     const USUAL: (f64, f64) = (768.0, 576.0);
@@ -169,8 +187,8 @@ fn film(world: &mut World<'_>, sensor: &Object) -> (f64, f64) {
         ];
         let mut takes = vec!["width", "height"];
         takes.extend(idle);
-        let cuts = ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"];
-        world.check(film, &takes, &cuts);
+        takes.extend(CROP);
+        world.check(film, &takes, &[]);
         for prop in film.props.iter().filter(|p| idle.contains(&p.name.as_str())) {
             world.note(
                 prop.at,
@@ -183,6 +201,9 @@ fn film(world: &mut World<'_>, sensor: &Object) -> (f64, f64) {
                 .said
                 .error(film.at, format!("a picture of {} x {} pixels, expected 1 to 65536", size.0, size.1));
             size = USUAL;
+        }
+        if is_first {
+            world.desc.film.crop = crop(world, film, size);
         }
     }
     if is_first {
