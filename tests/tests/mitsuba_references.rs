@@ -192,6 +192,7 @@ fn some_test_scenes_of_mitsuba_look_as_they_do_there() {
 #[test]
 fn all_test_scenes_of_mitsuba_look_as_they_do_there() {
     if std::env::var_os("DURER_SLOW").is_none() {
+        eprintln!("SKIPPED: all_test_scenes_of_mitsuba_look_as_they_do_there: set DURER_SLOW=1");
         return;
     }
     let asked = std::env::var("DURER_SAMPLES").ok().and_then(|n| n.parse().ok());
