@@ -151,7 +151,10 @@ fn missing_files_are_told_with_the_folder_and_the_nearest_name() {
     );
     assert_eq!(advice("textures/wood.png"), format!("looked in {}/", folder.display()));
     assert!(advice("tex/logo.png").ends_with("/tex/, which is not there"));
-    assert_eq!(advice("../logo.png"), "copy the file into the scene's folder");
+    assert_eq!(
+        advice("../logo.png"),
+        "copy the file into the scene's folder, or name a folder with --root that holds both"
+    );
 }
 
 /// Opening a pipe to which nobody writes would wait for ever.

@@ -294,7 +294,8 @@ mod tests {
     fn words_lead_back() {
         for word in LightSampler::WORDS {
             let led = LightSampler::from_word(word).map(LightSampler::word);
-            assert_eq!(led, Some(if word == "bvh" { "tree" } else { word }));
+            let ours = if ["bvh", "exhaustive"].contains(&word) { "tree" } else { word };
+            assert_eq!(led, Some(ours));
         }
         assert_eq!(LightSampler::from_word("best"), None);
     }
