@@ -25,7 +25,7 @@ fn rows(a: &DAffine3) -> Rows {
     ]
 }
 
-/// `f` of every row. PERF: `array::map` stays a call in the hottest functions (callgrind).
+/// `f` of every row. PERF: without link-time optimisation `array::map` stays a call (callgrind).
 #[inline(always)]
 fn by_row(m: &Rows, f: impl Fn(&[f32; 4]) -> f32) -> [f32; 3] {
     [f(&m[0]), f(&m[1]), f(&m[2])]

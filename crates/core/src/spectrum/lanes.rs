@@ -34,7 +34,7 @@ impl Spectrum {
     pub const fn splat(v: f32) -> Self {
         Self([v; 4])
     }
-    /// `f` of every lane. PERF: written out, for `array::map` stays a call in the hottest functions (callgrind).
+    /// `f` of every lane. PERF: written out: without link-time optimisation `array::map` stays a call (callgrind).
     #[inline]
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
         let [a, b, c, d] = self.0;
