@@ -2,7 +2,7 @@
 use std::path::{Path, PathBuf};
 
 use durer::{Options, accel::Engine, prepare, scene::Severity};
-use durer_tests::{import, shared};
+use durer_tests::{bits, import, render, shared};
 
 fn pbrt_files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("a folder").flatten().map(|e| e.path());
@@ -100,4 +100,36 @@ fn every_word_of_pbrt_is_known() {
     warnings.sort();
     warnings.dedup();
     assert_eq!(warnings.len(), all, "{warnings:?}");
+}
+
+/// What a film and a sampler say reaches the picture, unless options say otherwise.
+#[test]
+fn crops_seeds_and_exposures_of_files_are_followed() {
+    let of = |film: &str, sampler: &str, options: &Options| {
+        let text = format!(
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6 {film}\n\
+             Sampler \"zsobol\" \"integer pixelsamples\" 2 {sampler}\nCamera \"perspective\"\nWorldBegin\n\
+             LightSource \"gradientsky\" Translate 0 0 3 Shape \"sphere\""
+        );
+        let prepared = prepare(&mut import(&text), options).expect("sound");
+        let all: Vec<u32> = bits(&render(&prepared)).into_iter().flatten().collect();
+        (prepared.window(), all)
+    };
+    let usual = Options::default();
+    let (whole, plain) = of("", "", &usual);
+    assert_eq!((whole.x0, whole.x1, whole.y0, whole.y1), (0, 8, 0, 6));
+    let (part, _) = of("\"float cropwindow\" [0.25 0.5 0 0.5]", "", &usual);
+    assert_eq!((part.x0, part.x1, part.y0, part.y1), (2, 4, 0, 3));
+    let bounds = "\"integer pixelbounds\" [1 5 2 6]";
+    let (part, _) = of(bounds, "", &usual);
+    assert_eq!((part.x0, part.x1, part.y0, part.y1), (1, 5, 2, 6));
+    assert_eq!(of(bounds, "", &Options { crop: Some(whole), ..usual.clone() }).0, whole);
+    let seed = "\"integer seed\" 7";
+    let seeded = of("", seed, &usual).1;
+    assert_ne!(seeded, plain);
+    assert_eq!(seeded, of("", "", &Options { seed: Some(7), ..usual.clone() }).1);
+    assert_eq!(plain, of("", seed, &Options { seed: Some(0), ..usual.clone() }).1);
+    let twice = of("\"float exposuretime\" 2", "", &usual).1;
+    let doubled: Vec<u32> = plain.iter().map(|bits| (2.0 * f32::from_bits(*bits)).to_bits()).collect();
+    assert_eq!(twice, doubled);
 }
