@@ -10,7 +10,7 @@ use durer_scene::counted;
 use rayon::prelude::*;
 
 use super::{
-    accessor::{Announced, Component},
+    accessor::Announced,
     buffer::Buffers,
     document::Document,
     element::{Checked, Element, Fault},
