@@ -6,7 +6,7 @@ mod lines;
 mod number;
 
 pub(crate) use complaint::{Complaint, Tally, grouped, tell};
-pub(crate) use lines::{Part, Words, is_continued};
+pub(crate) use lines::{PIECE, Part, Words, is_continued};
 pub(crate) use number::{float, integer, leading_float, leading_integer};
 
 /// The text with LF for CR if lines end in CR alone, as on old Macintosh computers; places stay the same.
