@@ -81,7 +81,9 @@ impl Place {
         while left > 0.0 {
             let mut command = self.cargo_fuzz("run")?;
             command.arg(target.name).arg(&corpus).arg("--").args(BOUNDS);
-            command.arg(format!("-dict={}", words.display()));
+            if target.is_wordy {
+                command.arg(format!("-dict={}", words.display()));
+            }
             command.arg(format!("-artifact_prefix={}/", found.display()));
             command.arg(format!("-max_len={}", target.longest));
             command.arg(format!("-max_total_time={}", left.ceil()));
@@ -95,6 +97,13 @@ impl Place {
         }
         Ok(last)
     }
+}
+
+/// The last lines of what a target said: a run of minutes says thousands before.
+fn end_of(said: &str) -> String {
+    const LINES: usize = 40;
+    let lines: Vec<&str> = said.lines().collect();
+    lines.get(lines.len().saturating_sub(LINES)..).unwrap_or_default().join("\n")
 }
 
 /// Builds all targets, runs those that were asked for one after another, and says which found something.
@@ -117,7 +126,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
             Ok(last) => println!("{:<12} nothing found  {last}", target.name),
             Err(error) => {
                 println!("{:<12} FOUND", target.name);
-                findings.push(format!("{}: {error}", target.name));
+                findings.push(format!("{}:\n{}", target.name, end_of(&error.to_string())));
             }
         }
     }
@@ -135,6 +144,13 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_long_report_the_end_is_told() {
+        let long: String = (0..1000).map(|i| format!("{i}\n")).collect();
+        let end = end_of(&long);
+        assert!(end.starts_with("960\n") && end.ends_with("999") && end_of("a") == "a");
+    }
 
     #[test]
     fn options_are_read() {

@@ -44,7 +44,10 @@ pub(super) fn gather(
         }
         fs::write(corpus.join(format!("seed-{number}")), bytes)?;
     }
-    fs::write(words, dictionary(counts))?;
+    // An empty one is an error to libFuzzer.
+    if target.is_wordy {
+        fs::write(words, dictionary(counts))?;
+    }
     Ok(files.len())
 }
 

@@ -3,7 +3,11 @@
 mod peer;
 mod report;
 
-use std::{fs, path::PathBuf, process::Command};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 use anyhow::{Context, bail};
 use serde_json::{Value, json};
@@ -89,8 +93,8 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     measure(Command::new(&loader).arg("--write").arg(&files))?;
     let (ply, glb) = (files.join("hills.ply"), files.join("hills.glb"));
     measure(Command::new(&durer).arg("convert").arg(&ply).arg("-o").arg(&glb).arg("--quiet"))?;
-    let peers = Peers::find(&folder);
-    let mut skipped = peers.skipped.clone();
+    let bench = Bench { loader, peers: Peers::find(&folder), runs: options.runs };
+    let mut skipped = bench.peers.skipped.clone();
     let assets = built::assets()?;
     let mut rows = Vec::new();
     let both = HILLS.iter().map(|scene| (scene, &files)).chain(ASSETS.iter().map(|scene| (scene, &assets)));
@@ -100,7 +104,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
             continue;
         }
         eprintln!("==> {}", scene.name);
-        rows.push(row(&loader, &peers, scene, folder, options.runs, &mut skipped)?);
+        rows.push(bench.row(scene, folder, &mut skipped)?);
     }
     let figures = json!({ "version": 1, "rows": rows, "skipped": skipped });
     if options.json {
@@ -111,40 +115,42 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// All that is measured of a scene: of each figure the least of all runs, which others disturb least.
-fn row(
-    loader: &PathBuf,
-    peers: &Peers,
-    scene: &Scene,
-    folder: &PathBuf,
+/// What loads, and how often.
+struct Bench {
+    loader: PathBuf,
+    peers: Peers,
     runs: usize,
-    skipped: &mut Vec<String>,
-) -> anyhow::Result<Value> {
-    let mut row = json!({ "scene": scene.name });
-    for _ in 0..runs {
-        for threads in THREADS {
-            let mut command = Command::new(loader);
+}
+
+impl Bench {
+    /// All that is measured of a scene: of each figure the least of all runs, which others disturb least.
+    fn row(&self, scene: &Scene, folder: &Path, skipped: &mut Vec<String>) -> anyhow::Result<Value> {
+        let mut row = json!({ "scene": scene.name });
+        for threads in (0..self.runs).flat_map(|_| THREADS) {
+            let mut command = Command::new(&self.loader);
             command.arg(folder.join(scene.ours)).env("RAYON_NUM_THREADS", threads.to_string());
             let run = measure(&mut command)?;
             let figures: Value = serde_json::from_slice(&run.output.stdout).context("figures of loading")?;
             (row["bytes"], row["triangles"]) = (figures["bytes"].clone(), figures["triangles"].clone());
-            keep_least(&mut row[format!("durer-{threads}")], &figures);
+            for part in ["read", "ready"] {
+                keep_least(&mut row[format!("durer-{threads}")][part], &figures[part]);
+            }
         }
-    }
-    let named = [("mitsuba", scene.mitsuba), ("pbrt", scene.pbrt)];
-    for (peer, file) in named.into_iter().filter_map(|(peer, file)| Some((peer, folder.join(file?)))) {
-        for _ in 0..runs {
-            match peers.load(peer, &file) {
-                None => break,
-                Some(Ok(figures)) => keep_least(&mut row[peer], &figures),
-                Some(Err(why)) => {
-                    skipped.push(format!("{}, {peer}: {why}", scene.name));
-                    break;
+        let named = [("mitsuba", scene.mitsuba), ("pbrt", scene.pbrt)];
+        for (peer, file) in named.into_iter().filter_map(|(peer, file)| Some((peer, folder.join(file?)))) {
+            for _ in 0..self.runs {
+                match self.peers.load(peer, &file) {
+                    None => break,
+                    Some(Ok(figures)) => keep_least(&mut row[peer], &figures),
+                    Some(Err(why)) => {
+                        skipped.push(format!("{}, {peer}: {why}", scene.name));
+                        break;
+                    }
                 }
             }
         }
+        Ok(row)
     }
-    Ok(row)
 }
 
 /// Of every number in `found` the lesser one of it and of what `kept` holds.
