@@ -3,6 +3,7 @@
 
 const SCENE: &str = r#"Camera "realistic" "string lensfile" "fuzzed.dat" "float aperturediameter" 4
 WorldBegin
+LightSource "point"
 Shape "sphere"
 "#;
 

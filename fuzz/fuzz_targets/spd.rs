@@ -2,6 +2,7 @@
 #![no_main]
 
 const SCENE: &str = r#"WorldBegin
+LightSource "point"
 Material "conductor" "spectrum eta" "fuzzed.spd" "spectrum k" "fuzzed.spd"
 Shape "sphere"
 "#;
