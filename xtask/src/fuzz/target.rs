@@ -32,6 +32,7 @@ pub(super) const TARGETS: &[Target] = &[
     text("stl", &["stl"]),
     binary("serialized", &["serialized"]),
     binary("meshopt", &[]),
+    binary("draco", &[]),
     binary("vdb", &["vdb"]),
     binary("vol", &["vol"]),
     binary("gzip", &["gz"]),
@@ -46,6 +47,7 @@ pub(super) const TARGETS: &[Target] = &[
     binary("bmp", &["bmp"]),
     binary("tga", &["tga"]),
     binary("webp", &["webp"]),
+    binary("ktx2", &["ktx2"]),
 ];
 
 #[cfg(test)]
