@@ -5,6 +5,8 @@ use std::{
     path::Path,
 };
 
+use durer::math::float::{cos, sin};
+
 /// Squares along an edge.
 const SQUARES: u32 = 708;
 
@@ -18,7 +20,7 @@ impl Hills {
     fn new() -> Self {
         let point = |x: u32, y: u32| {
             let [u, v] = [x, y].map(|n| n as f32 / SQUARES as f32 * 10.0 - 5.0);
-            [u, v, 0.3 * (u * 2.1).sin() * (v * 1.7).cos() + 0.05 * (u * 17.0 + v * 11.0).sin()]
+            [u, v, 0.3 * sin(u * 2.1) * cos(v * 1.7) + 0.05 * sin(u * 17.0 + v * 11.0)]
         };
         let points = (0..=SQUARES).flat_map(|y| (0..=SQUARES).map(move |x| point(x, y))).collect();
         let corners = (0..SQUARES).flat_map(|y| (0..SQUARES).map(move |x| y * (SQUARES + 1) + x));

@@ -52,12 +52,12 @@ fn measure(scene: &str) -> anyhow::Result<()> {
     let clock = Clock::start();
     let mut imported = open(scene);
     let read = clock.seconds();
-    let files: Vec<PathBuf> =
-        [PathBuf::from(scene)].into_iter().chain(imported.assets.files_read()).collect();
-    let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |about| about.len())).sum();
     let options = Options { width: Some(8), height: Some(8), ..Options::default() };
     let prepared = prepare(&mut imported, &options).context("not sound; `durer info` says why")?;
     let ready = clock.seconds();
+    let files: Vec<PathBuf> =
+        [PathBuf::from(scene)].into_iter().chain(imported.assets.files_read()).collect();
+    let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |about| about.len())).sum();
     let triangles = prepared.scene.accel.stats().triangles;
     println!("{}", json!({ "bytes": bytes, "read": read, "ready": ready, "triangles": triangles }));
     Ok(())

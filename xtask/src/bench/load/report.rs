@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// One line for each scene, and what was skipped.
 pub(super) fn as_table(figures: &Value) -> String {
-    let mut text = "| scene | MB | triangles | reading, MB/s with 1 and 2 threads | of a thread's time | ready: cpu s, wall s | \
+    let mut text = "| scene | MB | triangles | reading, MB/s with 1 and 2 threads | MB per cpu s | ready: cpu s, wall s | \
                     Mitsuba | pbrt-v4 |\n|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for row in figures["rows"].as_array().into_iter().flatten() {
