@@ -14,8 +14,15 @@ use crate::{
 };
 
 impl<P: Probe> Walk<'_, P> {
-    /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
+    /// Where a ray that met `s` after `t` metres is if it goes through, and whether one wavelength goes on alone.
     pub(in super::super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
+        let mut crossing = self.cross_bodies(before, s, t);
+        crossing.disperses |= s.bsdf.is_led();
+        crossing
+    }
+
+    /// The same of the bodies behind surfaces alone; counts what is wrong with the ray's account.
+    fn cross_bodies(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
         let scene = self.cx.scene;
         let concern = if self.heeds_media { !scene.media.is_empty() } else { scene.media.has_bodies() };
         if !concern {
