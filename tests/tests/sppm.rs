@@ -50,12 +50,18 @@ fn surfaces_change_nothing_of_it() {
             "Material \"diffuse\" Rotate 90 1 0 0 Shape \"disk\" \"float radius\" 1 \"float alpha\" 0.4",
         ),
         (
+            "hair",
+            "Material \"hair\" \"float eumelanin\" 0.3 Attribute \"shape\" \"float width\" 0.12 \
+             Shape \"curve\" \"point3 P\" [-0.8 0 0  -0.3 0.3 0.2  0.3 -0.3 0  0.8 0 -0.2] \
+             Shape \"curve\" \"point3 P\" [-0.8 0 0.3  -0.3 0.3 0.4  0.3 -0.2 0.2  0.8 0 0.1]",
+        ),
+        (
             "moving",
             "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All Material \"diffuse\" Shape \"sphere\" \"float radius\" 0.4",
         ),
     ] {
-        // Below the glass ball lies a caustic, which discs blur; a pass has but one moment.
-        let limits = if ["glass", "moving"].contains(&name) { (0.03, 0.2) } else { (0.02, 0.1) };
+        // Below the glass ball lies a caustic, which discs blur; a pass has but one moment; paths look for what strands hide.
+        let limits = if ["glass", "hair", "moving"].contains(&name) { (0.03, 0.2) } else { (0.02, 0.1) };
         agrees(name, &under(ball), limits);
     }
 }
