@@ -42,8 +42,7 @@ fn hair_mirrors_the_colour_of_a_lamp_and_passes_that_of_its_pigment() {
         ("\"float eumelanin\" 1.1", black),
     ]);
     let seen = by_lamp(&[]);
-    for curl in 0..3 {
-        let [r, g, b] = mirrored[curl];
+    for [r, g, b] in mirrored {
         assert!((r / g / (44.0 / 36.0) - 1.0).abs() < 0.01, "{mirrored:?}");
         assert!((r / b / (44.0 / 27.0) - 1.0).abs() < 0.01, "{mirrored:?}");
     }
@@ -51,8 +50,7 @@ fn hair_mirrors_the_colour_of_a_lamp_and_passes_that_of_its_pigment() {
         (0..3).map(|curl| [0, 1, 2].map(|c| seen[curl][c] - mirrored[curl][c])).collect();
     let light = |curl: usize| passed[curl].iter().sum::<f64>();
     // Pigment keeps blue first, and the more the more there is of it.
-    for curl in 0..3 {
-        let [r, g, b] = passed[curl];
+    for [r, g, b] in passed.iter().copied() {
         assert!(r > g * 44.0 / 36.0 && g > b * 36.0 / 27.0 && b > 0.0, "{passed:?}");
     }
     let warmth = |curl: usize| passed[curl][0] / passed[curl][2] / (44.0 / 27.0);

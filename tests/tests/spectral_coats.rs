@@ -114,7 +114,8 @@ fn coats_on_matte_bodies_reflect_each_wavelength_by_its_own_index() {
             }
             let found = seen(carried, "Integrator \"path\"", 1024, &world(roughness));
             let what = format!("{carried:?}, albedo {albedo}, roughness {roughness}");
-            assert_near(found, colour(carried, share), 0.012, &what);
+            let within = if roughness > 0.0 { 0.012 } else { 0.006 };
+            assert_near(found, colour(carried, share), within, &what);
         }
         let found = colour(Carried::Wavelengths, share);
         assert!(albedo == 1.0 || (found[0] - found[2]).abs() > 0.02, "{found:?}");
@@ -123,7 +124,7 @@ fn coats_on_matte_bodies_reflect_each_wavelength_by_its_own_index() {
 
 #[test]
 fn coats_on_metal_reflect_each_wavelength_by_its_own_index() {
-    const METAL: (f64, f64) = (1.8, 0.5);
+    const METAL: (f64, f64) = (4.0, 0.3);
     // Straight on: the coat, and metal below it that is met again and again.
     let share = |nm: f64| {
         let n = index(nm);
@@ -151,8 +152,8 @@ fn coats_on_metal_reflect_each_wavelength_by_its_own_index() {
         (BOTH[1], "path", 2e-3, 1024),
     ] {
         let found = seen(carried, &format!("Integrator \"{integrator}\""), samples, &world(roughness));
-        assert_near(found, colour(carried, share), 0.012, &format!("{carried:?}, {integrator}, {roughness}"));
+        assert_near(found, colour(carried, share), 0.005, &format!("{carried:?}, {integrator}, {roughness}"));
     }
     let expected = colour(Carried::Wavelengths, share);
-    assert!((expected[0] - expected[2]).abs() > 0.05, "{expected:?}");
+    assert!((expected[0] - expected[2]).abs() > 0.012, "{expected:?}");
 }

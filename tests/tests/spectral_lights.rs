@@ -94,20 +94,20 @@ fn pictures_shine_as_lights_of_their_colours_do() {
     for (light, world) in worlds {
         let white = BOTH.map(|carried| seen(folder.path(), carried, &world("white")));
         let (once, bright) = (reflected(BOTH[1], [1.0; 3], BRICK), white[1][0] / f64::from(BRICK[0]));
-        for c in 0..3 {
+        (0..3).for_each(|c| {
             // White is as bright in both, and shows the surface's own colour.
             assert!((white[0][c] - white[1][c]).abs() < 6e-3 * bright, "{light}: {white:?}");
             assert!((white[1][c] - bright * once[c]).abs() < 6e-3 * bright, "{light}: {white:?} {once:?}");
-        }
+        });
         for carried in BOTH {
             let (found, expected) =
                 (seen(folder.path(), carried, &world("flame")), reflected(carried, FLAME, BRICK));
-            for c in 0..3 {
+            (0..3).for_each(|c| {
                 assert!(
                     (found[c] - bright * expected[c]).abs() < 6e-3 * bright,
                     "{light}, {carried:?}: {found:?}, expected {expected:?} times {bright}"
                 );
-            }
+            });
         }
         let [rgb, waves] = BOTH.map(|carried| reflected(carried, FLAME, BRICK));
         redder += waves[0] - rgb[0];

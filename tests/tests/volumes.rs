@@ -178,9 +178,9 @@ fn what_a_body_absorbs_and_what_floats_in_it_count_together_i20() {
     let dark = "LightSource \"infinite\" \"rgb L\" [0 0 0]\n";
     let found = of(dark, [[0.7; 3], [0.0; 3]], "\"rgb Le\" [2 2 2]", &body, 1);
     let chord = 2.0 * (1.0 - 25.0 * 0.04 / 25.04f64).sqrt();
-    for c in 0..3 {
-        let all = 0.7 + TINT[c];
-        near(found[c], 0.7 * 2.0 / all * (1.0 - (-all * chord).exp()), 1e-4, "glow");
+    for (found, tint) in found.into_iter().zip(TINT) {
+        let all = 0.7 + tint;
+        near(found, 0.7 * 2.0 / all * (1.0 - (-all * chord).exp()), 1e-4, "glow");
     }
     // The same in a grid, by chance, whether it scatters too or not. It is even between the middles of its outermost cells.
     for scattered in ["0 0 0 ", "1 1 1 "] {
@@ -197,10 +197,10 @@ fn what_a_body_absorbs_and_what_floats_in_it_count_together_i20() {
             colour(&picture("0 0.2 5", ALL, &world, 65_536))
         };
         let (found, plain) = (grid("0.7 0.7 0.7 ", &body), grid("1 0.8 1.3 ", "Material \"interface\""));
-        for c in 0..3 {
-            // Only the medium's own part of what is absorbed glows.
+        // Only the medium's own part of what is absorbed glows.
+        (0..3).for_each(|c| {
             near(found[c], plain[c] * 0.7 / (0.7 + TINT[c]), 0.015, &format!("glow of a grid, {scattered}"));
-        }
+        });
     }
 }
 

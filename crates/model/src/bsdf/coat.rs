@@ -115,8 +115,8 @@ fn at_cosine(cos: f32) -> Vector3 {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     passage: Passage,
-    /// `B`.
-    back: f32,
+    /// `(1 - B) eta²`: without what fades it is the mean, and between indices no light is lost.
+    out: f32,
     mean: f32,
 }
 
@@ -156,7 +156,7 @@ impl Coat {
         let row = between(&self.of, x, |of| of.row(facets), Row::mixed);
         let scale = 1.0 / sqr(eta);
         let color = albedo.map(|r| {
-            let back = r * row.back;
+            let back = r * (1.0 - row.out * scale);
             r * scale * (1.0 - powi(back, bounces)) / (1.0 - back)
         });
         Body { color, mean: row.mean, towards: row.passage.at(cos), passage: row.passage }
@@ -229,7 +229,11 @@ impl Row {
                 (passes(cos) * WHOLE + 0.5) as u16
             })),
         };
-        Self { passage, back: over_cosines(sent_back), mean: over_cosines(|cos| passage.at(cos)) }
+        Self {
+            passage,
+            out: (1.0 - over_cosines(sent_back)) * sqr(eta),
+            mean: over_cosines(|cos| passage.at(cos)),
+        }
     }
 
     fn mixed(&self, other: &Self, t: f32) -> Self {
@@ -243,7 +247,7 @@ impl Row {
             }
             (own, _) => own,
         };
-        Self { passage, back: lerp(self.back, other.back), mean: lerp(self.mean, other.mean) }
+        Self { passage, out: lerp(self.out, other.out), mean: lerp(self.mean, other.mean) }
     }
 }
 
