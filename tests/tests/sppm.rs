@@ -60,6 +60,24 @@ fn surfaces_change_nothing_of_it() {
     }
 }
 
+/// Strands keep no photons: eye rays go on among them as paths do.
+#[test]
+fn light_goes_from_strand_to_strand_as_on_paths() {
+    let mut world =
+        format!("{LAMP}Material \"hair\" \"rgb sigma_a\" [0 0 0] Attribute \"shape\" \"float width\" 0.16\n");
+    for i in 0..48 {
+        let (x, y, z) =
+            (f64::from(i % 12) * 0.12 - 0.7, 0.4 + f64::from(i / 12) * 0.2, f64::from(i / 12) * 0.1);
+        world += &format!(
+            "Shape \"curve\" \"point3 P\" [{x} {y} -1  {} {y} {}  {} {y} {z}  {x} {y} 1]\n",
+            x + 0.2,
+            z - 0.4,
+            x - 0.2
+        );
+    }
+    agrees("hair", &world, (0.02, 0.1));
+}
+
 /// E1: in a closed box that glows all light is `L / (1 - a)`, bounce by bounce. On a sphere a ball of radius r about a point
 /// covers `pi r²` (Archimedes): nothing is blurred away.
 #[test]

@@ -154,3 +154,79 @@ fn the_path_integrator_ignores_media() {
     let found = colour(&scene(&text, &Options { samples: Some(4), ..Options::default() }));
     assert_eq!(found, [1.0; 3]);
 }
+
+/// What a body of the index 1 absorbs besides.
+const TINT: [f64; 3] = [0.3, 0.1, 0.6];
+
+#[test]
+fn what_a_body_absorbs_and_what_floats_in_it_count_together_i20() {
+    let [r, g, b] = TINT;
+    let body = format!("Material \"dielectric\" \"float eta\" 1 \"rgb absorption\" [{r} {g} {b}]");
+    let of = |light: &str, [a, s]: [[f64; 3]; 2], more: &str, material: &str, samples: u32| {
+        let [a, s] = [a, s].map(|[r, g, b]| format!("{r} {g} {b}"));
+        let fog = fog(&format!("\"rgb sigma_a\" [{a}] \"rgb sigma_s\" [{s}] {more}"));
+        colour(&picture("0 0.2 5", ALL, &format!("{light}{fog}{}", ball(material)), samples))
+    };
+    let both = |own: f64| TINT.map(|tint| own + tint);
+    // As if the medium absorbed as much more, whether it scatters or not.
+    for (scattered, samples, within) in [([0.0; 3], 1, 1e-5), ([1.5, 2.0, 1.0], 65_536, 0.01)] {
+        let found = of(SKY, [[0.2; 3], scattered], "", &body, samples);
+        let expected = of(SKY, [both(0.2), scattered], "", "Material \"interface\"", samples);
+        (0..3).for_each(|c| near(found[c], expected[c], within, &format!("{scattered:?}, channel {c}")));
+    }
+    // What glows is dimmed from where it is on: the chord of 2 sqrt(1 - 25 sin²).
+    let dark = "LightSource \"infinite\" \"rgb L\" [0 0 0]\n";
+    let found = of(dark, [[0.7; 3], [0.0; 3]], "\"rgb Le\" [2 2 2]", &body, 1);
+    let chord = 2.0 * (1.0 - 25.0 * 0.04 / 25.04f64).sqrt();
+    for (found, tint) in found.into_iter().zip(TINT) {
+        let all = 0.7 + tint;
+        near(found, 0.7 * 2.0 / all * (1.0 - (-all * chord).exp()), 1e-4, "glow");
+    }
+    // The same in a grid, by chance, whether it scatters too or not. It is even between the middles of its outermost cells.
+    for scattered in ["0 0 0 ", "1 1 1 "] {
+        let grid = |absorbed: &str, material: &str| {
+            let world = format!(
+                "{dark}MakeNamedMedium \"fog\" \"string type\" \"rgbgrid\" \"integer nx\" 3 \"integer ny\" 3 \"integer nz\" 3 \
+                 \"point3 p0\" [-6 -6 -1] \"point3 p1\" [6 6 11] \"rgb sigma_a\" [{}] \"rgb sigma_s\" [{}] \
+                 \"rgb Le\" [{}]\n{}",
+                absorbed.repeat(27),
+                scattered.repeat(27),
+                "2 2 2 ".repeat(27),
+                ball(material)
+            );
+            colour(&picture("0 0.2 5", ALL, &world, 65_536))
+        };
+        let (found, plain) = (grid("0.7 0.7 0.7 ", &body), grid("1 0.8 1.3 ", "Material \"interface\""));
+        // Only the medium's own part of what is absorbed glows.
+        (0..3).for_each(|c| {
+            near(found[c], plain[c] * 0.7 / (0.7 + TINT[c]), 0.015, &format!("glow of a grid, {scattered}"));
+        });
+    }
+}
+
+#[test]
+fn fog_in_a_ball_that_moves_is_there_while_the_ball_is() {
+    // From 3 m left to 3 m right of the ray: what its chord leaves, in the mean over the shutter.
+    let world = format!(
+        "{SKY}{}AttributeBegin Material \"interface\" MediumInterface \"fog\" \"\"\n\
+         ActiveTransform StartTime Translate -3 0 5 ActiveTransform EndTime Translate 3 0 5 ActiveTransform All\n\
+         Shape \"sphere\" AttributeEnd\n",
+        fog("\"rgb sigma_a\" [0.9 0.9 0.9] \"rgb sigma_s\" [0 0 0]")
+    );
+    let left = |t: f64| (-1.8 * (1.0 - (6.0 * t - 3.0).powi(2)).max(0.0).sqrt()).exp();
+    let expected = (0..6000).map(|i| left((f64::from(i) + 0.5) / 6000.0)).sum::<f64>() / 6000.0;
+    near(seen(AHEAD, "", &world, 4096), expected, 2e-3, "ball");
+}
+
+#[test]
+fn media_that_are_told_to_move_stay_and_say_so() {
+    for (kind, says) in [("cloud", true), ("homogeneous", false)] {
+        let moving = format!(
+            "WorldBegin ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n\
+             MakeNamedMedium \"m\" \"string type\" \"{kind}\"\n\
+             MediumInterface \"m\" \"\" Material \"interface\" Shape \"sphere\""
+        );
+        let said = format!("{:?}", durer_tests::import(&moving).diagnostics);
+        assert_eq!(said.contains("the medium \\\"m\\\" moves, which media do not"), says, "{said}");
+    }
+}

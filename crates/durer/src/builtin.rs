@@ -73,6 +73,11 @@ pub const SCENES: &[Builtin] = &[
         text: include_str!("../scenes/jade.pbrt"),
     },
     Builtin {
+        name: "curls",
+        doc: "blond, red and brown curls of hair before a lamp that shines through them",
+        text: include_str!("../scenes/curls.pbrt"),
+    },
+    Builtin {
         name: "snell",
         doc: "Snell's window: the sky from under water, and the floor mirrored around it",
         text: include_str!("../scenes/snell.pbrt"),

@@ -13,7 +13,7 @@ use durer_core::{
         Normal3, Point2, Vector3,
         float::{exp, sqr},
     },
-    spectrum::Spectrum,
+    spectrum::{Curve, Spectrum},
 };
 
 use super::{Facets, SMOOTH, fresnel_dielectric, refract};
@@ -26,6 +26,9 @@ const WHOLE: f32 = u16::MAX as f32;
 const FINE: usize = 24;
 /// Widths that are tabulated where roughness varies.
 const WIDTHS: usize = 12;
+/// Step between indices that are tabulated where the index varies, and how many steps there are at most.
+const STEP: f32 = 0.1;
+const MOST_STEPS: f32 = 8.0;
 
 /// How much passes the coat, by the cosine outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,54 +115,82 @@ fn at_cosine(cos: f32) -> Vector3 {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     passage: Passage,
-    /// `B`.
-    back: f32,
+    /// `(1 - B) eta²`: without what fades it is the mean, and between indices no light is lost.
+    out: f32,
     mean: f32,
 }
 
-/// What a material's coat does to the body's light, for all widths of its microfacets.
+/// A coat of one index.
 #[derive(Clone, Debug)]
-pub struct Coat {
-    eta: f32,
+struct Widths {
     smooth: Row,
     /// By the square root of the width, evenly; a single one where the width is the same everywhere.
     rough: Vec<Row>,
 }
 
+/// What a material's coat does to the body's light, for all its indices and all widths of its microfacets.
+#[derive(Clone, Debug)]
+pub struct Coat {
+    /// The smallest and the largest index.
+    ends: [f32; 2],
+    /// Evenly between these; a single one where they are the same.
+    of: Vec<Widths>,
+}
+
 impl Coat {
-    /// Of an index relative to the outside, and a thickness in units of the mean free path of what absorbs below the coat.
-    /// `alpha` is the width of its facets if that is the same everywhere. Widths that differ along and across are taken to
-    /// be their mean: it blurs `t` a little.
-    pub fn new(eta: f32, thickness: f32, alpha: Option<f32>) -> Self {
+    /// Of an index relative to the outside, or all indices of a curve, and a thickness in units of the mean free path of what
+    /// absorbs below the coat. `alpha` is the width of its facets if that is the same everywhere. Widths that differ along and
+    /// across are taken to be their mean: it blurs `t` a little.
+    pub fn new(eta: (f32, Option<&Curve>), thickness: f32, alpha: Option<f32>) -> Self {
+        let ends = eta.1.map_or([eta.0; 2], Curve::ends);
+        let [low, high] = ends;
+        let steps = ((high - low) / STEP).ceil().min(MOST_STEPS);
+        let of = |i: usize| Widths::new(low + (high - low) * (i as f32 / steps.max(1.0)), thickness, alpha);
+        Self { ends, of: (0..=steps as usize).map(of).collect() }
+    }
+
+    /// The body of this albedo below facets of an index, seen under a cosine, for walks that meet it this often at most.
+    pub fn body(&self, albedo: Spectrum, (eta, facets): (f32, &Facets), bounces: u32, cos: f32) -> Body {
+        let [low, high] = self.ends;
+        let x = if high > low { (eta - low) / (high - low) * (self.of.len() - 1) as f32 } else { 0.0 };
+        let row = between(&self.of, x, |of| of.row(facets), Row::mixed);
+        let scale = 1.0 / sqr(eta);
+        let color = albedo.map(|r| {
+            let back = r * (1.0 - row.out * scale);
+            r * scale * (1.0 - powi(back, bounces)) / (1.0 - back)
+        });
+        Body { color, mean: row.mean, towards: row.passage.at(cos), passage: row.passage }
+    }
+}
+
+/// Of what belongs to evenly spaced items, that of the place `x` between them, in steps.
+fn between<T>(all: &[T], x: f32, of: impl Fn(&T) -> Row, mix: impl Fn(&Row, &Row, f32) -> Row) -> Row {
+    let x = x.clamp(0.0, (all.len() - 1) as f32);
+    let i = x as usize;
+    let first = of(&all[i]);
+    match all.get(i + 1) {
+        Some(next) if x > i as f32 => mix(&first, &of(next), x - i as f32),
+        _ => first,
+    }
+}
+
+impl Widths {
+    fn new(eta: f32, thickness: f32, alpha: Option<f32>) -> Self {
         let row = |alpha: f32| Row::new(eta, thickness, alpha);
         let rough = match alpha {
             Some(alpha) if alpha < SMOOTH => Vec::new(),
             Some(alpha) => vec![row(alpha)],
             None => (0..WIDTHS).map(|i| row(sqr(i as f32 / (WIDTHS - 1) as f32).max(SMOOTH))).collect(),
         };
-        Self { eta, smooth: row(0.0), rough }
+        Self { smooth: row(0.0), rough }
     }
 
-    /// The body of this albedo below these facets, seen under a cosine, for walks that meet it this often at most.
-    pub fn body(&self, albedo: Spectrum, facets: &Facets, bounces: u32, cos: f32) -> Body {
-        let row = if facets.is_smooth() { self.smooth } else { self.row(facets.alpha()) };
-        let scale = 1.0 / sqr(self.eta);
-        let color = albedo.map(|r| {
-            let back = r * row.back;
-            r * scale * (1.0 - powi(back, bounces)) / (1.0 - back)
-        });
-        Body { color, mean: row.mean, towards: row.passage.at(cos), passage: row.passage }
-    }
-
-    fn row(&self, alpha: f32) -> Row {
-        let x = alpha.clamp(0.0, 1.0).sqrt() * (self.rough.len().max(1) - 1) as f32;
-        let i = x as usize;
-        let t = x - i as f32;
-        match (self.rough.get(i), self.rough.get(i + 1)) {
-            (Some(a), Some(b)) => a.mixed(b, t),
-            (Some(only), None) => *only,
-            (None, _) => self.smooth,
+    fn row(&self, facets: &Facets) -> Row {
+        if facets.is_smooth() || self.rough.is_empty() {
+            return self.smooth;
         }
+        let x = facets.alpha().sqrt() * (self.rough.len() - 1) as f32;
+        between(&self.rough, x, |row| *row, Row::mixed)
     }
 }
 
@@ -198,7 +229,11 @@ impl Row {
                 (passes(cos) * WHOLE + 0.5) as u16
             })),
         };
-        Self { passage, back: over_cosines(sent_back), mean: over_cosines(|cos| passage.at(cos)) }
+        Self {
+            passage,
+            out: (1.0 - over_cosines(sent_back)) * sqr(eta),
+            mean: over_cosines(|cos| passage.at(cos)),
+        }
     }
 
     fn mixed(&self, other: &Self, t: f32) -> Self {
@@ -207,9 +242,12 @@ impl Row {
             (Passage::Rough(a), Passage::Rough(b)) => {
                 Passage::Rough(std::array::from_fn(|i| (lerp(a[i].into(), b[i].into()) + 0.5) as u16))
             }
+            (Passage::Smooth { eta, thickness }, Passage::Smooth { eta: other, .. }) => {
+                Passage::Smooth { eta: lerp(eta, other), thickness }
+            }
             (own, _) => own,
         };
-        Self { passage, back: lerp(self.back, other.back), mean: lerp(self.mean, other.mean) }
+        Self { passage, out: lerp(self.out, other.out), mean: lerp(self.mean, other.mean) }
     }
 }
 

@@ -87,11 +87,12 @@ pub struct Bsdf {
     count: usize,
     /// What of all scattered light arrives at the end of `wo`.
     arriving: Spectrum,
+    is_led: bool,
 }
 
 impl Default for Bsdf {
     fn default() -> Self {
-        Self { lobes: [None; Self::MOST_LOBES], count: 0, arriving: Spectrum::ONE }
+        Self { lobes: [None; Self::MOST_LOBES], count: 0, arriving: Spectrum::ONE, is_led: false }
     }
 }
 
@@ -125,11 +126,21 @@ impl Bsdf {
             return None;
         }
         let own = self.lobes().map(|lobe| lobe.scaled(1.0 - t));
-        Some(own.chain(other.lobes().map(|lobe| lobe.scaled(t))).fold(Self::default(), Self::with))
+        let none = Self { is_led: self.is_led || other.is_led, ..Self::default() };
+        Some(own.chain(other.lobes().map(|lobe| lobe.scaled(t))).fold(none, Self::with))
     }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
         self.lobes[..self.count].iter().flatten()
+    }
+    /// The same lobes, which hold for the leading wavelength only.
+    #[must_use]
+    pub fn led(self) -> Self {
+        Self { is_led: true, ..self }
+    }
+    /// True if all other wavelengths end here: see [`Basis::collapse`](durer_core::spectrum::Basis::collapse).
+    pub fn is_led(&self) -> bool {
+        self.is_led
     }
     /// The same lobes seen from afar: of what they scatter the share `arriving` is left, as something on the way along
     /// `wo` absorbs the rest.
@@ -148,7 +159,7 @@ impl Bsdf {
     /// Makes light that was scattered below leave interfaces, seen from below along `wo`, in all directions, unless they
     /// blur it enough by themselves.
     pub fn leave(&mut self, wo: Vector3) {
-        let mut all = Self { arriving: self.arriving, ..Self::default() };
+        let mut all = Self { arriving: self.arriving, is_led: self.is_led, ..Self::default() };
         for lobe in self.lobes() {
             match lobe {
                 Lobe::Interface(interface) => interface.leave(wo, &mut all),

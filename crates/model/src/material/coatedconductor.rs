@@ -60,7 +60,7 @@ impl Kind for CoatedConductor {
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let layers = Layers::read(args, "interface.eta");
         Some(Box::new(Self {
-            metal: Metal::read(args, METAL, layers.eta),
+            metal: Metal::read(args, METAL, layers.eta_d),
             metal_roughness: Roughness::read_as(args, METAL_ROUGHNESS),
             coat_roughness: Roughness::read_as(args, COAT_ROUGHNESS),
             layers,
@@ -76,18 +76,23 @@ impl Material for CoatedConductor {
         let (coat, below) =
             (self.coat_roughness.facets(cx, surface), self.metal_roughness.facets(cx, surface));
         let cos = surface.n_s.dot(wo).abs().min(1.0);
-        let Layers { eta, thickness, cloud, .. } = self.layers;
+        let Layers { eta_d, thickness, bounces, .. } = self.layers;
+        let eta = self.layers.index(&cx.basis);
         let is_sharp = coat.is_smooth() && below.is_smooth();
+        // Read as relative to the coat at 587.6 nm.
         let (metal_eta, k) = match metal {
-            Reflectance::Index { eta, k } => (eta, k),
+            Reflectance::Index { eta: metal, k } => (metal * (eta_d / eta), k * (eta_d / eta)),
             Reflectance::Schlick { .. } => (Spectrum::ONE, Spectrum::BLACK),
         };
         let layered = self.layers.walked(cx, coat, Below::Metal { eta: metal_eta, k, facets: below });
         if is_sharp {
-            let weight = mirrored_by_layers(cos, eta, thickness, metal, self.layers.bounces);
+            let metal = Reflectance::Index { eta: metal_eta, k };
+            let weight = mirrored_by_layers(cos, eta, thickness, metal, bounces);
             let mirror = Bsdf::default().with(Lobe::Mirror { weight });
-            return if cloud.is_some() { mirror.with(Lobe::Layered(layered)) } else { mirror };
+            let is_clear = self.layers.cloud.is_none();
+            return self.layers.led(cx, if is_clear { mirror } else { mirror.with(Lobe::Layered(layered)) });
         }
-        Bsdf::default().with(Lobe::Layered(layered)).with(reflecting(Reflectance::dielectric(eta), coat, cos))
+        let outside = reflecting(Reflectance::dielectric(eta), coat, cos);
+        self.layers.led(cx, Bsdf::default().with(Lobe::Layered(layered)).with(outside))
     }
 }

@@ -2,7 +2,10 @@
 //!
 //! pbrt-v4's model of two layers, by the closed form that it has over Lambert's body: see `bsdf/coat.rs`; by a random walk where
 //! light scatters in the coat (`bsdf/layered.rs`).
-use durer_core::{math::Vector3, spectrum::Color};
+use durer_core::{
+    math::Vector3,
+    spectrum::{Basis, Color, Curve},
+};
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Material, conductor::reflecting, detail::Detail, roughness::Roughness, share, share_input};
@@ -12,9 +15,13 @@ use crate::{
 };
 
 /// The coat's parameters that both coated materials have.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Layers {
-    pub(super) eta: f32,
+    /// At 587.6 nm.
+    pub(super) eta_d: f32,
+    /// How the index changes with wavelength, if it does: as directions below the coat depend on it, only the leading one goes
+    /// on, as in pbrt-v4.
+    dispersion: Option<Curve>,
     pub(super) thickness: f32,
     /// How often a walk meets what is below the coat.
     pub(super) bounces: u32,
@@ -25,7 +32,8 @@ pub(super) struct Layers {
 
 impl Layers {
     pub(super) const fn eta(name: &'static str) -> ParamSpec {
-        let doc = "Index of refraction of the coat, relative to the outside.";
+        let doc = "Index of refraction of the coat, relative to the outside; one that changes with wavelength counts for each \
+                   where rays carry wavelengths.";
         ParamSpec::new(name, ParamType::Index, ParamDefault::Float(1.5), doc).range(1.0, 10.0)
     }
     pub(super) const THICKNESS: ParamSpec = ParamSpec::float(
@@ -60,8 +68,10 @@ impl Layers {
 
     pub(super) fn read(args: &mut Args<'_>, eta: &str) -> Self {
         let albedo = args.color("albedo");
+        let (eta_d, dispersion) = args.refraction(eta);
         Self {
-            eta: args.index(eta),
+            eta_d,
+            dispersion,
             thickness: args.float("thickness"),
             bounces: (args.int("maxdepth") as u32).div_ceil(2),
             walks: args.int("nsamples") as u32,
@@ -69,11 +79,20 @@ impl Layers {
         }
     }
 
+    /// The index that a sample's light meets.
+    pub(super) fn index(&self, basis: &Basis) -> f32 {
+        self.dispersion.as_ref().map_or(self.eta_d, |curve| basis.leading(curve, self.eta_d))
+    }
+    /// The lobes, of the leading wavelength if the index depends on it.
+    pub(super) fn led(&self, cx: &ShadeCx<'_>, bsdf: Bsdf) -> Bsdf {
+        if self.dispersion.is_some() && cx.basis != Basis::Rgb { bsdf.led() } else { bsdf }
+    }
+
     /// The walk below a coat of these facets.
     pub(super) fn walked(&self, cx: &ShadeCx<'_>, coat: Facets, below: Below) -> Layered {
         let cloud = self.cloud.map_or(Cloud::NONE, |(albedo, g)| Cloud::new(cx.basis.reflectance(albedo), g));
         Layered {
-            eta: self.eta,
+            eta: self.index(&cx.basis),
             coat,
             thickness: self.thickness,
             cloud,
@@ -122,7 +141,11 @@ impl Kind for CoatedDiffuse {
         let (layers, roughness) = (Layers::read(args, "eta"), Roughness::read(args));
         Some(Box::new(Self {
             reflectance: share_input(args, "reflectance"),
-            coat: Coat::new(layers.eta, layers.thickness, roughness.constant()),
+            coat: Coat::new(
+                (layers.eta_d, layers.dispersion.as_ref()),
+                layers.thickness,
+                roughness.constant(),
+            ),
             roughness,
             layers,
             detail: Detail::read(args),
@@ -136,13 +159,14 @@ impl Material for CoatedDiffuse {
         let albedo = share(cx, &self.reflectance, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
-        if self.layers.cloud.is_some() {
-            let layered = self.layers.walked(cx, facets, Below::Matte { albedo });
-            let outside = reflecting(Reflectance::dielectric(self.layers.eta), facets, cos);
-            return Bsdf::default().with(Lobe::Layered(layered)).with(outside);
-        }
-        Bsdf::default()
-            .with(Lobe::Matte(Matte::Coated(self.coat.body(albedo, &facets, self.layers.bounces, cos))))
-            .with(reflecting(Reflectance::dielectric(self.layers.eta), facets, cos))
+        let eta = self.layers.index(&cx.basis);
+        let body = match self.layers.cloud {
+            Some(_) => Lobe::Layered(self.layers.walked(cx, facets, Below::Matte { albedo })),
+            None => {
+                Lobe::Matte(Matte::Coated(self.coat.body(albedo, (eta, &facets), self.layers.bounces, cos)))
+            }
+        };
+        let outside = reflecting(Reflectance::dielectric(eta), facets, cos);
+        self.layers.led(cx, Bsdf::default().with(body).with(outside))
     }
 }

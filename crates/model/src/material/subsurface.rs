@@ -165,11 +165,11 @@ impl Kind for Subsurface {
         let (eta, dispersion) = args.refraction("eta");
         let roughness = Roughness::read(args);
         Some(Box::new(Self {
+            coat: Coat::new((eta, dispersion.as_ref()), 0.0, roughness.constant()),
             medium: Medium { dispersion, priority, ..Medium::clear(eta) },
             stuff: Stuff::read(args),
             scale: args.float("scale"),
             phase: HenyeyGreenstein::new(args.float("g")),
-            coat: Coat::new(eta, 0.0, roughness.constant()),
             roughness,
             detail: Detail::read(args),
         }))
@@ -198,9 +198,10 @@ impl Material for Subsurface {
         let albedo = self.below(cx, &surface.texture_at()).albedo();
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
+        let eta = self.medium.eta(&cx.basis);
         Bsdf::default()
-            .with(Lobe::Matte(Matte::Coated(self.coat.body(albedo, &facets, ALL, cos))))
-            .with(reflecting(Reflectance::dielectric(self.medium.eta_d), facets, cos))
+            .with(Lobe::Matte(Matte::Coated(self.coat.body(albedo, (eta, &facets), ALL, cos))))
+            .with(reflecting(Reflectance::dielectric(eta), facets, cos))
     }
     fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);

@@ -1,6 +1,9 @@
 //! A thin pane: two parallel interfaces so close that light which passes goes straight on, however often it bounced between
 //! them. With `R` the share that one interface reflects, `R' = R + T² R / (1 - R²) = 2 R / (1 + R)` (validation.md I10).
-use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_core::{
+    math::Vector3,
+    spectrum::{Color, Curve, Spectrum},
+};
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Material, detail::Detail};
@@ -12,7 +15,8 @@ use crate::{
 /// A pane.
 #[derive(Debug)]
 pub struct ThinDielectric {
-    eta: f32,
+    /// At 587.6 nm, and how it changes with wavelength if it does: no direction depends on it, each wavelength has its own.
+    eta: (f32, Option<Curve>),
     detail: Detail,
 }
 
@@ -35,18 +39,25 @@ impl Kind for ThinDielectric {
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self { eta: args.index("eta"), detail: Detail::read(args) }))
+        Some(Box::new(Self { eta: args.refraction("eta"), detail: Detail::read(args) }))
     }
 }
 
 impl Material for ThinDielectric {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
-        let once = fresnel_dielectric(surface.n_s.dot(wo).abs().min(1.0), self.eta);
-        let all = 2.0 * once / (1.0 + once);
+        let cos = surface.n_s.dot(wo).abs().min(1.0);
+        let reflected = |eta: f32| {
+            let once = fresnel_dielectric(cos, eta);
+            2.0 * once / (1.0 + once)
+        };
+        let all = match &self.eta {
+            (eta, None) => Spectrum::splat(reflected(*eta)),
+            (eta, Some(curve)) => cx.basis.curve(curve, Color { rgb: [*eta; 3] }).map(reflected),
+        };
         Bsdf::default()
-            .with(Lobe::Mirror { weight: Spectrum::splat(all) })
-            .with(Lobe::PassThrough { weight: Spectrum::splat(1.0 - all) })
+            .with(Lobe::Mirror { weight: all })
+            .with(Lobe::PassThrough { weight: all.map(|r| 1.0 - r) })
     }
     fn is_passed(&self) -> bool {
         true

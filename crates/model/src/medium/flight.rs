@@ -36,6 +36,17 @@ pub enum End {
     Scattered(f32),
 }
 
+/// Who flies, and what is in the way besides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flier {
+    /// What lanes mean.
+    pub basis: Basis,
+    /// The densities of the lanes so far, with mean 1.
+    pub lanes: Spectrum,
+    /// What the body around the volume absorbs, 1/m: it dims what is sent out on the way, and is no part of the weight.
+    pub absorption: Spectrum,
+}
+
 /// What became of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
@@ -74,40 +85,28 @@ fn left(sigma: Spectrum, way: f32) -> Spectrum {
     sigma.map(|s| if s > 0.0 { exp(-s * way) } else { 1.0 })
 }
 
+impl Flier {
+    /// What is left of light that is sent out so far on the way.
+    fn dimmed(&self, sent: Spectrum, way: f32) -> Spectrum {
+        if sent.is_black() || self.absorption.is_black() { sent } else { sent * left(self.absorption, way) }
+    }
+}
+
 impl Volume {
-    /// Follows a ray of unit direction from its parameter `t0` to `t1`. `lanes` are the densities of the lanes so far, with
-    /// mean 1.
-    pub fn fly(
-        &self,
-        (basis, lanes): (Basis, Spectrum),
-        ray: &Ray,
-        span: (f32, f32),
-        draws: Draws<'_>,
-    ) -> Flight {
+    /// Follows a ray of unit direction from its parameter `t0` to `t1`.
+    pub fn fly(&self, flier: &Flier, ray: &Ray, span: (f32, f32), draws: Draws<'_>) -> Flight {
         match (self.is_even(), self.scatters()) {
-            (true, _) => self.fly_evenly((basis, lanes), ray, span, draws),
-            (false, true) => self.fly_by_chance((basis, lanes), ray, span, draws),
-            (false, false) => self.fade((basis, lanes), ray, span, draws),
+            (true, scatters) => {
+                let beside = (!self.is_dark()).then_some(flier.absorption);
+                self.at(flier.basis, ray.o).fly_evenly((scatters, beside), flier.lanes, span, draws)
+            }
+            (false, true) => self.fly_by_chance(flier, ray, span, draws),
+            (false, false) => self.fade(flier, ray, span, draws),
         }
     }
 
-    fn fly_evenly(
-        &self,
-        (basis, lanes): (Basis, Spectrum),
-        ray: &Ray,
-        span: (f32, f32),
-        draws: Draws<'_>,
-    ) -> Flight {
-        self.at(basis, ray.o).fly_evenly((self.scatters(), self.is_dark()), lanes, span, draws)
-    }
-
-    fn fly_by_chance(
-        &self,
-        (basis, mut lanes): (Basis, Spectrum),
-        ray: &Ray,
-        span: (f32, f32),
-        draws: Draws<'_>,
-    ) -> Flight {
+    fn fly_by_chance(&self, flier: &Flier, ray: &Ray, span: (f32, f32), draws: Draws<'_>) -> Flight {
+        let Flier { basis, mut lanes, .. } = *flier;
         let most = self.most(basis);
         let (mut weight, mut passed, mut sent) = (Spectrum::ONE, 1.0, Spectrum::BLACK);
         let mut places = Places::new(draws);
@@ -117,7 +116,7 @@ impl Volume {
             while let Some((at, u)) = places.next(&mut t, to, bound) {
                 let here = self.at(basis, ray.at(at));
                 let sigma_t = here.sigma_a + here.sigma_s;
-                sent += weight * here.added / bound;
+                sent += flier.dimmed(weight * here.added / bound, at - span.0);
                 let met = lanes * sigma_t;
                 if u < met.mean() / bound {
                     weight = weight * here.sigma_s / met.mean();
@@ -139,16 +138,12 @@ impl Volume {
     }
 
     /// Follows a ray through what does not scatter.
-    fn fade(
-        &self,
-        (basis, lanes): (Basis, Spectrum),
-        ray: &Ray,
-        span: (f32, f32),
-        draws: Draws<'_>,
-    ) -> Flight {
+    fn fade(&self, flier: &Flier, ray: &Ray, span: (f32, f32), draws: Draws<'_>) -> Flight {
         let mut sent = Spectrum::BLACK;
-        let weight = self.ratio(basis, ray, span, draws, |added| sent += added);
-        Flight { end: End::Through, weight, lanes, passed: 1.0, sent }
+        let weight = self.ratio(flier.basis, ray, span, draws, |added, at| {
+            sent += flier.dimmed(added, at - span.0);
+        });
+        Flight { end: End::Through, weight, lanes: flier.lanes, passed: 1.0, sent }
     }
 
     /// What of light passes from parameter `t0` to `t1` of a ray of unit direction.
@@ -158,20 +153,20 @@ impl Volume {
                 let here = self.at(basis, ray.o);
                 left(here.sigma_a + here.sigma_s, (t1 - t0).max(0.0))
             }
-            false => self.ratio(basis, ray, (t0, t1), draws, |_| {}),
+            false => self.ratio(basis, ray, (t0, t1), draws, |_, _| {}),
         };
         Passage { share, passed: if self.scatters() { share } else { Spectrum::ONE } }
     }
 
     /// Ratio tracking (Novak, Selle and Jarosz 2014): at each place that is drawn the share is left which the bound has to
-    /// spare. What is sent out along the way goes to `send`.
+    /// spare. What is sent out along the way goes to `send`, and from where.
     fn ratio(
         &self,
         basis: Basis,
         ray: &Ray,
         span: (f32, f32),
         draws: Draws<'_>,
-        mut send: impl FnMut(Spectrum),
+        mut send: impl FnMut(Spectrum, f32),
     ) -> Spectrum {
         let most = self.most(basis);
         let mut share = Spectrum::ONE;
@@ -181,7 +176,7 @@ impl Volume {
             let mut t = from;
             while let Some((at, u)) = places.next(&mut t, to, bound) {
                 let here = self.at(basis, ray.at(at));
-                send(share * here.added / bound);
+                send(share * here.added / bound, at);
                 share *= (here.sigma_a + here.sigma_s).map(|s| (1.0 - s / bound).max(0.0));
                 if share.max() < LITTLE {
                     if u < ENDED || share.is_black() {
@@ -196,21 +191,22 @@ impl Volume {
 }
 
 impl Local {
-    /// Follows a ray where everything is as here, which `scatters` and is dark, or not.
+    /// Follows a ray where everything is as here, which `scatters` or not, and glows if it is known what a body absorbs
+    /// `beside` it.
     pub(super) fn fly_evenly(
         &self,
-        (scatters, is_dark): (bool, bool),
+        (scatters, beside): (bool, Option<Spectrum>),
         lanes: Spectrum,
         (t0, t1): (f32, f32),
         draws: Draws<'_>,
     ) -> Flight {
         let sigma_t = self.sigma_a + self.sigma_s;
         let way = (t1 - t0).max(0.0);
-        let sent = match is_dark {
-            true => Spectrum::BLACK,
-            // After an infinite way exp(-x) / x counts as 0, and 1 / sigma_t is left.
-            false if way.is_finite() => self.added * sigma_t.map(|s| way * mean_of_fading(s * way)),
-            false => self.added.zip(sigma_t, |added, s| if s > 0.0 { added / s } else { 0.0 }),
+        let sent = match beside.map(|absorption| sigma_t + absorption) {
+            None => Spectrum::BLACK,
+            // After an infinite way exp(-x) / x counts as 0, and 1 / sigma is left.
+            Some(lost) if way.is_finite() => self.added * lost.map(|s| way * mean_of_fading(s * way)),
+            Some(lost) => self.added.zip(lost, |added, s| if s > 0.0 { added / s } else { 0.0 }),
         };
         if !scatters {
             return Flight { end: End::Through, weight: left(sigma_t, way), lanes, passed: 1.0, sent };

@@ -53,6 +53,6 @@ impl Inside {
     /// Follows a ray of unit direction in it; see [`super::Volume::fly`].
     pub fn fly(&self, lanes: Spectrum, span: (f32, f32), draws: Draws<'_>) -> Flight {
         let local = Local { sigma_a: self.sigma_a, sigma_s: self.sigma_s, added: Spectrum::BLACK };
-        local.fly_evenly((!self.sigma_s.is_black(), true), lanes, span, draws)
+        local.fly_evenly((!self.sigma_s.is_black(), None), lanes, span, draws)
     }
 }

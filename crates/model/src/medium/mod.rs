@@ -33,7 +33,7 @@ use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
     cloud::Cloud,
-    flight::{Draws, End, Flight, Passage},
+    flight::{Draws, End, Flier, Flight, Passage},
     halfspace::HalfSpace,
     homogeneous::Homogeneous,
     inside::Inside,

@@ -35,8 +35,8 @@ pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe {
 
 /// A matte body of this albedo below a coat of this roughness, walks of `bounces`.
 pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
-    let coat = Coat::new(1.5, 0.01, Some(alpha));
-    Lobe::Matte(Matte::Coated(coat.body(grey(albedo), &Facets::round(alpha), bounces, 1.0)))
+    let coat = Coat::new((1.5, None), 0.01, Some(alpha));
+    Lobe::Matte(Matte::Coated(coat.body(grey(albedo), (1.5, &Facets::round(alpha)), bounces, 1.0)))
 }
 
 /// Metal below a coat.

@@ -34,7 +34,7 @@ pub enum ParamType {
     Choice(&'static [&'static str]),
     /// A path relative to the scene file.
     File,
-    /// An index of refraction: a number, or a spectrum, of which the value at 587.6 nm is taken.
+    /// An index of refraction: a number, or a spectrum.
     Index,
     /// A colour.
     Color,

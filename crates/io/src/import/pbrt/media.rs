@@ -19,6 +19,15 @@ impl Parser<'_> {
             return params.map(|_| ());
         }
         let node = params.as_ref().ok().cloned().and_then(|params| self.medium_node(params, &name));
+        let has_place = node.as_ref().is_some_and(|node| node.kind != "homogeneous");
+        if has_place && !self.state.ctm.motion(self.world.times).is_still() {
+            let message =
+                format!("the medium \"{}\" moves, which media do not: it stays where it starts", name.text);
+            self.input
+                .diagnostics
+                .warning(name.at, message)
+                .hint("a shape that moves takes along where its medium begins and ends");
+        }
         self.world.define_medium(&name, (node, &self.state.ctm), self.input.diagnostics);
         params.map(|_| ())
     }

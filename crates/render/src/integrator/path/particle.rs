@@ -10,7 +10,7 @@ use durer_core::{
 };
 use durer_model::{
     light::LightCx,
-    medium::{End, Phase},
+    medium::{End, Flier, Phase},
 };
 
 use super::{
@@ -50,7 +50,9 @@ impl<P: Probe> Follow<'_, P> {
         let (flight, phase) = match (&below, walk.volume(&ray.media)) {
             (Some((below, phase)), _) => (below.fly(cx.scene, ray, (way, hit.as_ref()), &draws), phase),
             (None, Some(volume)) => {
-                (volume.fly((cx.basis, ray.lanes), &ray.ray, way, &draws), volume.phase())
+                let absorption = walk.absorption(&ray.media);
+                let flier = Flier { basis: cx.basis, lanes: ray.lanes, absorption };
+                (volume.fly(&flier, &ray.ray, way, &draws), volume.phase())
             }
             (None, None) => {
                 return match hit {
@@ -66,7 +68,9 @@ impl<P: Probe> Follow<'_, P> {
         ray.density = ray.density.map(|density| density * flight.passed);
         match (flight.end, hit) {
             (End::Scattered(t), _) => {
-                let met = Met { phase, p: ray.ray.at(t), weight: flight.weight };
+                // The body absorbs what the volume in it does not.
+                let left = self.walk.arriving(&ray.media, ray.from, &ray.ray, t);
+                let met = Met { phase, p: ray.ray.at(t), weight: left * flight.weight };
                 self.scattered(ray, (&met, flight.sent), id)
             }
             (End::Through, Some(hit)) => self.shade(ray, &hit, (Some(&flight), id)),

@@ -4,7 +4,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use durer_model::Volume;
+use durer_model::{Medium, Volume};
 
 use super::{super::shading::Shading, Walk};
 use crate::{
@@ -14,8 +14,15 @@ use crate::{
 };
 
 impl<P: Probe> Walk<'_, P> {
-    /// Where a ray that met `s` after `t` metres is if it goes through; counts what is wrong with its account.
+    /// Where a ray that met `s` after `t` metres is if it goes through, and whether one wavelength goes on alone.
     pub(in super::super) fn cross(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
+        let mut crossing = self.cross_bodies(before, s, t);
+        crossing.disperses |= s.bsdf.is_led();
+        crossing
+    }
+
+    /// The same of the bodies behind surfaces alone; counts what is wrong with the ray's account.
+    fn cross_bodies(&mut self, before: &MediumStack, s: &mut Shading, t: f32) -> Crossing {
         let scene = self.cx.scene;
         let concern = if self.heeds_media { !scene.media.is_empty() } else { scene.media.has_bodies() };
         if !concern {
@@ -40,15 +47,24 @@ impl<P: Probe> Walk<'_, P> {
         ray: &Ray,
         t: f32,
     ) -> Spectrum {
-        if bodies.is_empty() {
-            return Spectrum::ONE;
-        }
-        let media = &self.cx.scene.media;
-        let present = bodies.present(media, &self.cx.basis).medium.map(|id| media.get(id));
-        match present.filter(|medium| medium.absorbs()) {
+        match self.absorbing(bodies) {
             Some(medium) => medium.transmittance(&self.cx.basis, way(from, ray, t)),
             None => Spectrum::ONE,
         }
+    }
+
+    /// What the body that a ray is in absorbs, 1/m.
+    pub(in super::super) fn absorption(&self, bodies: &MediumStack) -> Spectrum {
+        self.absorbing(bodies).map_or(Spectrum::BLACK, |body| self.cx.basis.unbounded(body.absorption))
+    }
+
+    fn absorbing(&self, bodies: &MediumStack) -> Option<&Medium> {
+        if bodies.is_empty() {
+            return None;
+        }
+        let media = &self.cx.scene.media;
+        let present = bodies.present(media, &self.cx.basis).medium.map(|id| media.get(id));
+        present.filter(|medium| medium.absorbs())
     }
 }
 
