@@ -1,18 +1,19 @@
-//! A picture around everything as matte and glossy surfaces see it, tabulated when the light is built.
+//! A picture around everything as matte and glossy surfaces see it, tabulated when somebody first asks: paths
+//! never do.
 //!
 //! Ambient: the cosine-weighted mean over the hemisphere about the normal (irradiance / pi). Glossy: the same lobes as the
 //! gradient sky (`sky_blur.rs`), at nodes over the square root of alpha. Tables have
 //! rows of latitude: bilinear lookups see no edges there, as they would in octahedral maps.
-use durer_core::math::{
-    Vector3,
-    float::{lerp, sqr},
-};
-use rayon::prelude::*;
+use std::sync::OnceLock;
 
 use super::{
     layout::Layout,
     panorama::{Panorama, weighted},
     pyramid::{Lobe, Pyramid},
+};
+use durer_core::math::{
+    Vector3,
+    float::{lerp, sqr},
 };
 
 /// Rows of the tables of glossy lobes; entry i is for alpha `((i + 1) / n)²`. Narrow lobes need finer ones.
@@ -42,7 +43,8 @@ impl Table {
             let axis = Self::LAYOUT.direction([place(i % columns, columns), place(i / columns, rows)]);
             pyramid.mean(lobe, axis)
         };
-        Self { size: [columns, rows], texels: (0..columns * rows).into_par_iter().map(texel).collect() }
+        // On one thread: a pool's thread that waits for others may be given work that asks for this very table.
+        Self { size: [columns, rows], texels: (0..columns * rows).map(texel).collect() }
     }
     fn at(&self, d: Vector3) -> [f32; 3] {
         let corners = Self::LAYOUT.corners(Self::LAYOUT.uv(d), self.size);
@@ -53,31 +55,35 @@ impl Table {
 /// The blurred picture.
 #[derive(Debug)]
 pub(super) struct Blur {
-    ambient: Table,
-    glossy: [Table; ROWS.len()],
+    pyramid: Pyramid,
+    /// Most rows of a table.
+    most_rows: u32,
+    ambient: OnceLock<Table>,
+    glossy: [OnceLock<Table>; ROWS.len()],
 }
 
 impl Blur {
-    /// Blurs a picture of so many rows.
-    pub(super) fn of(pyramid: &Pyramid, picture_rows: u32) -> Self {
-        let alpha = |i: usize| sqr((i + 1) as f32 / ROWS.len() as f32);
+    /// Of a picture of so many rows.
+    pub(super) fn of(pyramid: Pyramid, picture_rows: u32) -> Self {
         // Most of the time goes into the finest table, which a picture of a few pixels does not need.
-        let rows = |most: u32| most.min(picture_rows.saturating_mul(PER_PIXEL).max(LEAST_ROWS));
-        Self {
-            ambient: Table::of(pyramid, Lobe::Cosine, AMBIENT_ROWS),
-            glossy: std::array::from_fn(|i| Table::of(pyramid, Lobe::Glossy(alpha(i)), rows(ROWS[i]))),
-        }
+        let most_rows = picture_rows.saturating_mul(PER_PIXEL).max(LEAST_ROWS);
+        Self { pyramid, most_rows, ambient: OnceLock::new(), glossy: Default::default() }
     }
     /// Mean over the cosine lobe about unit direction `n`.
     pub(super) fn ambient(&self, n: Vector3) -> [f32; 3] {
-        self.ambient.at(n)
+        self.ambient.get_or_init(|| Table::of(&self.pyramid, Lobe::Cosine, AMBIENT_ROWS)).at(n)
+    }
+    fn table(&self, i: usize) -> &Table {
+        let alpha = sqr((i + 1) as f32 / ROWS.len() as f32);
+        self.glossy[i]
+            .get_or_init(|| Table::of(&self.pyramid, Lobe::Glossy(alpha), ROWS[i].min(self.most_rows)))
     }
     /// Mean over the glossy lobe of roughness `alpha` in `[0, 1]` about unit direction `d`.
     pub(super) fn glossy(&self, picture: &Panorama, d: Vector3, alpha: f32) -> [f32; 3] {
         let x = alpha.clamp(0.0, 1.0).sqrt() * ROWS.len() as f32;
         let i = (x as usize).min(ROWS.len() - 1);
-        let sharp = if i == 0 { picture.seen(d) } else { self.glossy[i - 1].at(d) };
-        let soft = self.glossy[i].at(d);
+        let sharp = if i == 0 { picture.seen(d) } else { self.table(i - 1).at(d) };
+        let soft = self.table(i).at(d);
         std::array::from_fn(|c| lerp(x - i as f32, sharp[c], soft[c]))
     }
 }
@@ -96,7 +102,8 @@ mod tests {
             let values = vec![1.0; 6 * height as usize * height as usize];
             let image = Image { width: 2 * height, height, channels: 3, data: ImageData::F32(values) };
             let picture = Panorama::new(Arc::new(image), Layout::LatitudeLongitude);
-            Blur::of(&Pyramid::of(&picture), height).glossy.map(|table| table.size[1])
+            let blur = Blur::of(Pyramid::of(&picture), height);
+            std::array::from_fn::<_, { ROWS.len() }, _>(|i| blur.table(i).size[1])
         };
         assert_eq!(rows(1), [LEAST_ROWS; ROWS.len()]);
         assert_eq!(rows(4), [32, 32, 24, 24, 24, 24]);

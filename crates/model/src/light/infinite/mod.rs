@@ -57,7 +57,7 @@ struct Picture {
 }
 
 impl Picture {
-    fn new(panorama: Panorama, pyramid: &Pyramid) -> Self {
+    fn new(panorama: Panorama, pyramid: Pyramid) -> Self {
         let blur = Blur::of(pyramid, panorama.size()[1]);
         let density = Density::of(&panorama);
         Self { panorama, blur, density, render_from_light: Transform::IDENTITY, shrinking: 1.0 }
@@ -153,7 +153,7 @@ impl Kind for Infinite {
             }
             scale *= wanted / found;
         }
-        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        let picture = Some(Box::new(Picture::new(panorama, pyramid)));
         Some(Box::new(Self { picture, ..even(Color::gray(scale).into()) }))
     }
 }
@@ -177,7 +177,7 @@ impl Infinite {
     pub(super) fn of_picture(image: Arc<Image>, layout: Layout, scale: f32) -> Self {
         let panorama = Panorama::new(image, layout);
         let pyramid = Pyramid::of(&panorama);
-        let picture = Some(Box::new(Picture::new(panorama, &pyramid)));
+        let picture = Some(Box::new(Picture::new(panorama, pyramid)));
         Self { radiance: Color::gray(scale).into(), picture, portal: None, view: None }
     }
     /// Mean luminance over the sphere.
