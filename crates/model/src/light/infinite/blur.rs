@@ -1,5 +1,5 @@
 //! A picture around everything as matte and glossy surfaces see it, tabulated when somebody first asks: paths
-//! never do.
+//! ask for no glossy one.
 //!
 //! Ambient: the cosine-weighted mean over the hemisphere about the normal (irradiance / pi). Glossy: the same lobes as the
 //! gradient sky (`sky_blur.rs`), at nodes over the square root of alpha. Tables have
