@@ -179,6 +179,9 @@ impl Writer<'_> {
         if is_textured {
             self.warn(format!("{owner}: roughness that differs along u and v becomes its mean"));
         }
+        if args.text("distribution") == "beckmann" {
+            self.warn(format!("{owner}: Beckmann's distribution of microfacets becomes GGX"));
+        }
         let mean = 0.5 * (of("uroughness") + of("vroughness"));
         let width = if args.bool("remaproughness") { mean.max(0.0).sqrt() } else { mean };
         made.pbr("roughnessFactor", width.max(0.0).sqrt().min(1.0));

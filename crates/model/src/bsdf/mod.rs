@@ -7,6 +7,7 @@
 //! Lights are reflected through [`Bsdf::eval`]. What is not a light is seen through [`Bsdf::branches`] (rays are
 //! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
 
+mod beckmann;
 mod blurred;
 mod bounced;
 mod branch;
@@ -44,7 +45,7 @@ pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
 pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};
-pub use facets::Facets;
+pub use facets::{Distribution, Facets};
 pub use fresnel::{
     Reflectance, fresnel_conductor, fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick,
 };

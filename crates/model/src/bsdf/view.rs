@@ -21,7 +21,7 @@ pub struct LobeView {
     pub transmittance: Spectrum,
     /// Power of the cosine by which it spreads, the smaller one of two; `None` if it spreads by no such power.
     pub exponent: Option<f32>,
-    /// GGX roughness, 0 to 1; `None` if it does not spread by microfacets.
+    /// Width of microfacets, 0 to 1; `None` if it does not spread by microfacets.
     pub alpha: Option<f32>,
 }
 

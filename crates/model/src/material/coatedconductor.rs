@@ -48,6 +48,7 @@ impl Kind for CoatedConductor {
             COAT_ROUGHNESS.u(),
             COAT_ROUGHNESS.v(),
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Layers::THICKNESS,
             Layers::ALBEDO,
             Layers::G,

@@ -109,6 +109,7 @@ impl Kind for CoatedDiffuse {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Layers::THICKNESS,
             Layers::ALBEDO,
             Layers::G,
@@ -122,7 +123,7 @@ impl Kind for CoatedDiffuse {
         let (layers, roughness) = (Layers::read(args, "eta"), Roughness::read(args));
         Some(Box::new(Self {
             reflectance: share_input(args, "reflectance"),
-            coat: Coat::new(layers.eta, layers.thickness, roughness.constant()),
+            coat: Coat::new(layers.eta, layers.thickness, roughness.constant(), roughness.like()),
             roughness,
             layers,
             detail: Detail::read(args),

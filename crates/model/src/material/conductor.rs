@@ -1,4 +1,4 @@
-//! Metal: GGX microfacets, each a smooth conductor after Fresnel's equations.
+//! Metal: microfacets, each a smooth conductor after Fresnel's equations.
 //!
 //! Where rays carry colours and no wavelengths a metal has three indices. They are chosen so that the colour of its reflectance at
 //! normal incidence is that of the measured curves, integrated over wavelengths: see [`durer_core::spectrum::conductor`].
@@ -139,6 +139,7 @@ impl Kind for Conductor {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             COMPENSATION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,

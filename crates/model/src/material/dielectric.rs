@@ -33,6 +33,7 @@ impl Kind for Dielectric {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],

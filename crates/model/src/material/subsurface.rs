@@ -156,6 +156,7 @@ impl Kind for Subsurface {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -169,7 +170,7 @@ impl Kind for Subsurface {
             stuff: Stuff::read(args),
             scale: args.float("scale"),
             phase: HenyeyGreenstein::new(args.float("g")),
-            coat: Coat::new(eta, 0.0, roughness.constant()),
+            coat: Coat::new(eta, 0.0, roughness.constant(), roughness.like()),
             roughness,
             detail: Detail::read(args),
         }))

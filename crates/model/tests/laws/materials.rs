@@ -64,6 +64,8 @@ fn stretched() -> Vec<(String, Box<dyn Material>)> {
                 }
                 ParamType::Choice(words) => {
                     sets.extend(words.iter().map(|word| Params::new().string(spec.name, word)));
+                    let rough = || Params::new().float("roughness", 0.3);
+                    sets.extend(words.iter().map(|word| rough().string(spec.name, word)));
                 }
                 _ => {}
             }

@@ -10,7 +10,7 @@ use durer_model::bsdf::{
 use durer_testkit::{interface, quadrature::cosine_hemisphere, random::Random};
 
 use super::{
-    lobes::{bounced, brushed, clouded, coated, glossy, layered},
+    lobes::{bounced, brushed, clouded, coated, glossy, layered, normal},
     sampling::energy,
     slow, v,
 };
@@ -198,12 +198,13 @@ fn a_rough_coat_gives_back_what_the_walk_does() {
 #[test]
 fn white_facets_with_compensation_lose_nothing_e3() {
     let mut random = Random::new(85);
-    for alpha in [0.1, 0.25, 0.5, 1.0] {
-        let both = Bsdf::default().with(glossy(Facets::round(alpha))).with(bounced(alpha));
+    let rounds = [0.1, 0.25, 0.5, 1.0].map(Facets::round);
+    for facets in rounds.into_iter().chain(rounds.map(normal)) {
+        let both = Bsdf::default().with(glossy(facets)).with(bounced(facets));
         for cos in [1.0, 0.5, 0.2] {
             let (mean, sigma) = energy(&both, seen_under(cos), 100_000, &mut random);
             // The table of single scattering is good to a percent.
-            assert!((mean - 1.0).abs() < 4.0 * sigma + 0.012, "{alpha} {cos}: {mean} +- {sigma}");
+            assert!((mean - 1.0).abs() < 4.0 * sigma + 0.012, "{facets:?} {cos}: {mean} +- {sigma}");
         }
     }
 }

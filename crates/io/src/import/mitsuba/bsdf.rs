@@ -302,16 +302,10 @@ fn rough_diffuse(world: &mut World<'_>, object: &Object) -> Option<(&'static str
     ))
 }
 
-/// Roughness as parameters of ours: alpha itself. Beckmann's distribution becomes GGX.
+/// Roughness as parameters of ours: alpha itself, and the distribution.
 pub(super) fn roughness(world: &mut World<'_>, object: &Object, params: Params) -> Params {
-    if object.word("distribution", &["beckmann", "ggx"], world.said) == "beckmann" {
-        let message = format!(
-            "{}: Beckmann's distribution of microfacets is drawn as GGX of the same alpha",
-            object.plugin
-        );
-        world.once(object.at, message);
-    }
-    let params = params.bool("remaproughness", false);
+    let distribution = object.word("distribution", &["beckmann", "ggx"], world.said);
+    let params = params.string("distribution", distribution).bool("remaproughness", false);
     let given = |name: &str| object.get(name).is_some() || object.children.iter().any(|c| c.name == name);
     if given("alpha_u") || given("alpha_v") {
         let params = world.number(params, object, ("alpha_u", "uroughness"));
