@@ -11,6 +11,7 @@ mod beckmann;
 mod blurred;
 mod bounced;
 mod branch;
+mod burley;
 mod coat;
 mod draw;
 mod facets;
@@ -33,6 +34,7 @@ mod sheet;
 mod straight;
 mod tilted;
 mod under;
+mod varnish;
 mod view;
 
 use durer_core::{
@@ -43,6 +45,7 @@ use durer_core::{
 pub use blurred::{Blur, Blurred};
 pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use burley::Burley;
 pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};
 pub use facets::{Distribution, Facets};
@@ -65,6 +68,7 @@ pub use sheet::Sheet;
 pub use straight::Straight;
 pub use tilted::Tilted;
 pub use under::{Under, Veil};
+pub use varnish::Varnish;
 pub use view::{FresnelView, LobeView, LostDraw};
 
 /// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
@@ -201,6 +205,7 @@ impl Bsdf {
                     | Lobe::Matte(_)
                     | Lobe::Behind { .. }
                     | Lobe::Phong(_)
+                    | Lobe::Varnish(_)
                     | Lobe::Layered(_)
                     | Lobe::Tilted(_)
                     | Lobe::Sheet(_)
@@ -219,6 +224,7 @@ impl Bsdf {
             Lobe::Layered(layered) => layered.look().is_none_or(|look| is_rough(look.facets.alpha())),
             Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => is_rough(glossy.facets.alpha()),
             Lobe::Sheet(sheet) => is_rough(sheet.glossy().facets.alpha()),
+            Lobe::Varnish(varnish) => is_rough(varnish.alpha),
             Lobe::Gloss(Gloss { exponent, .. }) | Lobe::Phong(Phong { exponent, .. }) => is_wide(*exponent),
             Lobe::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => is_rough(facets.alpha()),
             Lobe::Blurred(Blurred { blur: Blur::Cosine { reflection, transmission }, .. }) => {
@@ -281,7 +287,12 @@ impl Bsdf {
     /// Whether directions can be drawn from a lobe.
     pub fn spreads(&self) -> bool {
         self.lobes().any(|lobe| match lobe {
-            Lobe::Gloss(_) | Lobe::Blurred(_) | Lobe::Phong(_) | Lobe::Layered(_) | Lobe::Sheet(_) => true,
+            Lobe::Gloss(_)
+            | Lobe::Blurred(_)
+            | Lobe::Phong(_)
+            | Lobe::Varnish(_)
+            | Lobe::Layered(_)
+            | Lobe::Sheet(_) => true,
             Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
             _ => false,
         })

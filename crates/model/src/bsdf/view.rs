@@ -58,6 +58,7 @@ impl Lobe {
             Self::Matte(_) => "matte",
             Self::Behind { .. } => "translucent",
             Self::Phong(_) => "phong",
+            Self::Varnish(_) => "varnish",
             Self::Layered(_) => "layered",
             Self::Tilted(_) => "tilted",
             Self::Sheet(_) => "sheet",
@@ -100,7 +101,7 @@ impl Lobe {
             Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
             Self::Hair(hair) => LobeView { reflectance: hair.tint(), ..none },
             Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
-            Self::Layered(_) | Self::Tilted(_) => LobeView {
+            Self::Layered(_) | Self::Tilted(_) | Self::Varnish(_) => LobeView {
                 reflectance: self.tint(),
                 alpha: self.look().map(|glossy| glossy.facets.alpha()),
                 ..none

@@ -81,7 +81,7 @@ impl Material for CoatedConductor {
         let is_sharp = coat.is_smooth() && below.is_smooth();
         let (metal_eta, k) = match metal {
             Reflectance::Index { eta, k } => (eta, k),
-            Reflectance::Schlick { .. } => (Spectrum::ONE, Spectrum::BLACK),
+            Reflectance::Schlick { .. } | Reflectance::Passed { .. } => (Spectrum::ONE, Spectrum::BLACK),
         };
         let layered = self.layers.walked(cx, coat, Below::Metal { eta: metal_eta, k, facets: below });
         if is_sharp {

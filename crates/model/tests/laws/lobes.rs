@@ -2,8 +2,9 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Below, Blur, Blurred, Bounced, Bsdf, Cloud, Coat, Distribution, Facets, Gloss, Glossy, Hair, Highlight,
-    Interface, Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted, Under, Veil,
+    Below, Blur, Blurred, Bounced, Bsdf, Burley, Cloud, Coat, Distribution, Facets, Gloss, Glossy, Hair,
+    Highlight, Interface, Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted,
+    Under, Varnish, Veil,
 };
 
 /// Grey of a value.
@@ -155,6 +156,9 @@ pub(super) fn spread() -> Vec<Lobe> {
         Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
         Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
         Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
+        Lobe::Matte(Matte::Burley(burley(0.0))),
+        Lobe::Matte(Matte::Burley(burley(0.7))),
+        Lobe::Varnish(Varnish { share: 1.0, alpha: 0.1 }),
         tilted(0.25, Vector3::new(0.36, 0.48, 0.8)),
         tilted(0.4, Vector3::new(-0.28, 0.0, 0.96)),
         sheet(0.3),
@@ -162,6 +166,11 @@ pub(super) fn spread() -> Vec<Lobe> {
         hair(0.3, [0.4, 0.7], -0.8),
         hair(1.2, [0.7, 0.35], 0.0),
     ]
+}
+
+/// Disney's body, this flat.
+pub(super) fn burley(flatness: f32) -> Burley {
+    Burley { color: grey(0.8), sheen: grey(0.3), roughness: 0.6, flatness }
 }
 
 /// What leaves a smooth body of this index, seen from below.
@@ -208,6 +217,8 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Sheet(_) => 18,
         Lobe::Hair(_) => 19,
         Lobe::Matte(Matte::Leaving(_)) => 20,
+        Lobe::Matte(Matte::Burley(_)) => 21,
+        Lobe::Varnish(_) => 22,
     }
 }
 
@@ -216,5 +227,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..21).collect::<Vec<_>>());
+    assert_eq!(here, (0..23).collect::<Vec<_>>());
 }

@@ -4,13 +4,13 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::bsdf::{
-    Below, Bsdf, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, fresnel_conductor,
+    Below, Bsdf, Burley, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, fresnel_conductor,
     fresnel_dielectric, mirrored_by_layers, refract,
 };
-use durer_testkit::{interface, quadrature::cosine_hemisphere, random::Random};
+use durer_testkit::{DVec3, interface, quadrature::cosine_hemisphere, random::Random};
 
 use super::{
-    lobes::{bounced, brushed, clouded, coated, glossy, layered, normal},
+    lobes::{bounced, brushed, burley, clouded, coated, glossy, layered, normal},
     sampling::energy,
     slow, v,
 };
@@ -192,6 +192,27 @@ fn a_rough_coat_gives_back_what_the_walk_does() {
     ] {
         let got = lobe.eval(o, i).mean();
         assert!((got - expected).abs() < 2e-3 * expected, "{o:?} {i:?}: {got} {expected}");
+    }
+}
+
+#[test]
+fn disneys_body_is_that_of_its_first_paper() {
+    // Burley 2012: (1 + (F90 - 1) F_i) (1 + (F90 - 1) F_o) with F90 = 1/2 + 2 roughness cos² d.
+    let mut random = Random::new(86);
+    for _ in 0..200 {
+        let (o, i) = (random.direction(), random.direction());
+        let (o, i) = (DVec3::new(o.x, o.y, o.z.abs()), DVec3::new(i.x, i.y, i.z.abs()));
+        let rise = |c: f64| (1.0 - c).powi(5);
+        let d = (o + i).normalize().dot(o);
+        let most = 0.5 + 2.0 * 0.6 * d * d;
+        let part = |c: f64| 1.0 + (most - 1.0) * rise(c);
+        let expected = 0.8 / std::f64::consts::PI * part(o.z) * part(i.z) + 0.3 * rise(d);
+        let got = Matte::Burley(burley(0.0)).eval(v(o), v(i)).mean();
+        assert!((f64::from(got) - expected).abs() < 1e-5, "{o:?} {i:?}: {got} {expected}");
+        // Flat bodies: Hanrahan and Krueger's as in the second paper, where all light comes and goes straight.
+        let flat = Matte::Burley(Burley { flatness: 1.0, ..burley(0.0) });
+        let up = Vector3::new(0.0, 0.0, 1.0);
+        assert!((flat.eval(up, up).mean() - 0.8 * std::f32::consts::FRAC_1_PI * 0.625).abs() < 1e-6);
     }
 }
 
