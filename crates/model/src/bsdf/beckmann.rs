@@ -4,6 +4,8 @@
 //! `a = z / sqrt(a_x² x² + a_y² y²)` of a direction, `Lambda = (exp(-a²) / (a sqrt(pi)) - erfc(a)) / 2` (Heitz 2014, equation
 //! 72, for two widths by section 5.3), and the share seen from two of them is `1 / (1 + Lambda_o + Lambda_i)`.
 //! All directions are in the frame of the tangent.
+//!
+//! PERF: not inlined, so that the formulas of GGX are (bench render).
 use std::f32::consts::PI;
 
 use durer_core::math::{
@@ -22,6 +24,7 @@ const FRAC_1_SQRT_PI: f32 = 0.564_189_6;
 const STEPS: u32 = 30;
 
 /// Density of microfacet normals at the unit vector `h`; 1/sr.
+#[inline(never)]
 pub(super) fn distribution(h: Vector3, [x, y]: [f32; 2]) -> f32 {
     let z2 = sqr(h.z);
     let slopes = sqr(h.x / x) + sqr(h.y / y);
@@ -39,11 +42,13 @@ fn lambda(w: Vector3, [x, y]: [f32; 2]) -> f32 {
 }
 
 /// Shadowing and masking divided by four cosines, which are given as well: above 0.
+#[inline(never)]
 pub(super) fn visibility((o, cos_o): (Vector3, f32), (i, cos_i): (Vector3, f32), widths: [f32; 2]) -> f32 {
     0.25 / (cos_o.max(LEAST) * cos_i.max(LEAST) * (1.0 + lambda(o, widths) + lambda(i, widths)))
 }
 
 /// Smith's masking of one direction: the share of microfacets seen from it.
+#[inline(never)]
 pub(super) fn masking(w: Vector3, widths: [f32; 2]) -> f32 {
     1.0 / (1.0 + lambda(w, widths))
 }
@@ -53,6 +58,7 @@ pub(super) fn masking(w: Vector3, widths: [f32; 2]) -> f32 {
 /// Stretched so that both widths are 1, slopes across `o` are normally distributed, those along it by the part of the
 /// normal distribution that is seen (Heitz and d'Eon 2014, "Importance Sampling Microfacet-Based BSDFs using the Distribution of
 /// Visible Normals"): see [`slope`].
+#[inline(never)]
 pub(super) fn visible_normal(o: Vector3, [x, y]: [f32; 2], u: Point2) -> Vector3 {
     let o = Vector3::new(x * o.x, y * o.y, o.z).normalize();
     let sin = (sqr(o.x) + sqr(o.y)).sqrt();

@@ -116,6 +116,7 @@ impl Facets {
         (sqr(self.x * w.x) + sqr(self.y * w.y) + sqr(w.z)).sqrt()
     }
     /// Density of microfacet normals at the unit vector `h`; 1/sr.
+    #[inline]
     pub(super) fn density(&self, h: Vector3) -> f32 {
         match self.form {
             Form::Round => ggx::distribution(h, self.x),
@@ -128,6 +129,7 @@ impl Facets {
         }
     }
     /// Shadowing and masking divided by four cosines, which are given as well: above 0.
+    #[inline]
     pub(super) fn visibility(&self, (o, cos_o): (Vector3, f32), (i, cos_i): (Vector3, f32)) -> f32 {
         match self.form {
             Form::Round => ggx::visibility(cos_o, cos_i, self.x),
@@ -138,6 +140,7 @@ impl Facets {
         }
     }
     /// Smith's masking of a direction with z above 0: the share of microfacets seen from it.
+    #[inline]
     pub(super) fn masking(&self, o: Vector3) -> f32 {
         match self.form {
             Form::Round => ggx::masking(o.z, self.x),
