@@ -116,6 +116,17 @@ fn the_white_furnace_of_glossy_lobes_matches_closed_forms() {
 }
 
 #[test]
+fn the_white_furnace_of_both_distributions_is_the_oracles() {
+    for exact in both(&[0.1, 0.3, 0.6, 1.0]) {
+        for cos in [0.15, 0.4, 0.8, 1.0] {
+            let sum = furnace(&Lobe::Glossy(like(1.0, exact)), exact, seen_under(cos), 200);
+            let (a, b) = exact.albedo(cos, 200);
+            assert!((sum - a - b).abs() < 1e-4, "{exact:?} {cos}: {sum} {}", a + b);
+        }
+    }
+}
+
+#[test]
 fn no_lobe_reflects_more_than_arrives() {
     for exact in both(&[0.001, 0.02, 0.1, 0.3, 0.6, 1.0]) {
         for cos in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {

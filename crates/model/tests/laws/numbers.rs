@@ -4,8 +4,8 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::bsdf::{
-    Below, Bsdf, Burley, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, fresnel_conductor,
-    fresnel_dielectric, mirrored_by_layers, refract,
+    Below, Bsdf, Burley, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, Varnish,
+    fresnel_conductor, fresnel_dielectric, mirrored_by_layers, refract,
 };
 use durer_testkit::{DVec3, interface, quadrature::cosine_hemisphere, random::Random};
 
@@ -192,6 +192,18 @@ fn a_rough_coat_gives_back_what_the_walk_does() {
     ] {
         let got = lobe.eval(o, i).mean();
         assert!((got - expected).abs() < 2e-3 * expected, "{o:?} {i:?}: {got} {expected}");
+    }
+}
+
+#[test]
+fn disneys_coat_is_that_of_its_first_paper() {
+    // Straight on F is 0.04 and nothing is shadowed: f = 0.01 D, D = (a² - 1) / (pi a² ln a²) (Burley 2012, equation 9).
+    for alpha in [0.001f64, 0.02, 0.1] {
+        let a2 = alpha * alpha;
+        let expected = 0.01 * (a2 - 1.0) / (std::f64::consts::PI * a2 * a2.ln());
+        let up = Vector3::new(0.0, 0.0, 1.0);
+        let got = f64::from(Varnish { share: 1.0, alpha: alpha as f32 }.eval(up, up).mean());
+        assert!((got / expected - 1.0).abs() < 1e-4, "{alpha}: {got} {expected}");
     }
 }
 
