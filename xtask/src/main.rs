@@ -3,6 +3,7 @@
 
 mod assets;
 mod bench;
+mod fuzz;
 mod measure;
 mod needs;
 mod page;
@@ -49,6 +50,11 @@ Tasks of the durer project.
       `durer trace` as a whole, N times (default 3); how large its pages are; how fast pages of 10,000 rays are in
       Chromium (docs/benchmarks.md). What is missing is said and left out.
 
+  cargo xtask bench load [--json] [--runs N]
+      How long scenes take from their files to a tree that can be rendered, N times (default 3, the least counts): a
+      million generated triangles as OBJ, PLY, STL, pbrt and GLB, and scenes of the test files; beside Mitsuba, from PyPI,
+      and pbrt-v4, if `pbrt` is installed (docs/benchmarks.md).
+
   cargo xtask bench samplers [--json] [--quick] [--chart]
       The noise that each sampler leaves in small pictures at 1 to 1024 samples per pixel, and how many times less that
       is than of independent ones, as they are and blurred (docs/samplers.md); --quick ends at 64 samples, --chart draws
@@ -59,6 +65,11 @@ Tasks of the durer project.
       else ../shared/assets); writes docs/assets.md with a thumbnail, counts and times of each and says which were
       refused and why; puts contact sheets into target/assets/, and the page too if formats are left out. `pbrt` is
       a format too.
+
+  cargo xtask fuzz [--seconds N] [TARGET..]
+      Makes hostile files of small sound ones and lets every reader read them, each target of fuzz/ for N processor seconds
+      (default 1200), one after another; needs cargo-fuzz (cargo install cargo-fuzz). What they try lies in
+      target/fuzz/corpus/, what was found in target/fuzz/found/ (docs/TESTING.md).
 
   cargo xtask help
       This text.";
@@ -81,8 +92,10 @@ fn run(words: &[&str]) -> anyhow::Result<()> {
         ["test", "--quick"] => test::run(test::Extent::Quick),
         ["page"] => page::run(),
         ["assets", options @ ..] => assets::run(&assets::Options::parse(options)?),
+        ["fuzz", options @ ..] => fuzz::run(&fuzz::Options::parse(options)?),
         ["bench", "kernel", options @ ..] => bench::kernel::run(options),
         ["bench", "view", options @ ..] => bench::view::run(&bench::view::Options::parse(options)?),
+        ["bench", "load", options @ ..] => bench::load::run(&bench::load::Options::parse(options)?),
         ["bench", "samplers", options @ ..] => {
             bench::samplers::run(bench::samplers::Options::parse(options)?)
         }

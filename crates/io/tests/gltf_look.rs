@@ -141,6 +141,21 @@ fn textures_carry_channel_encoding_factor_wrap_and_filter() {
 }
 
 #[test]
+fn images_that_extensions_give_come_before_those_for_other_readers() {
+    let textures = json!([
+        {"source": 1, "extensions": {"KHR_texture_basisu": {"source": 0}}},
+        {"extensions": {"KHR_texture_basisu": {"source": 0}, "EXT_texture_webp": {"source": 2}}},
+    ]);
+    let base = |index: u32| json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": index}}});
+    let mut d = with_images(json!({"materials": [base(0), base(1)]}));
+    d["textures"] = textures;
+    d["images"] = json!([{"uri": "a.ktx2"}, {"uri": "a.png"}, {"uri": "a.webp"}]);
+    let desc = import_well(d, &[]).desc;
+    let files: Vec<String> = desc.textures.iter().map(|t| word(&t.node, "filename")).collect();
+    assert_eq!(files, ["a.ktx2", "a.webp"]);
+}
+
+#[test]
 fn texture_transforms_become_a_matrix_for_v_upwards() {
     let info = |t: Value| json!({"index": 0, "extensions": {"KHR_texture_transform": t}});
     let d = with_images(json!({"materials": [

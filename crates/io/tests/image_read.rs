@@ -188,11 +188,69 @@ fn webp_files_are_read() {
     }
 }
 
+/// 22 x 17 pixels (20 + 10 x, 8 + 14 y, 60 or, right of x = 10, 200), packed as ETC1S by Basis Universal 1.16.4.
+const ETC1S: &str = "q0tUWCAyMLsNChoKAAAAAAEAAAAWAAAAEQAAAAAAAAAAAAAAAQAAAAEAAAABAAAAaAAAACwAAACUAAAAJAAAALgAAAAAAAAA5gAAAAAAAACeAQAAAAAAABQAAAAAAAAAAAAAAAAAAAAsAAAAAAAAAAIAKACjAQIAAwMAAAAAAAAAAAAAAAA/AAAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDEuMTYAAB4AEQBXAAAAMwAAADQAAAAAAAAAAAAAAAAAAAAUAAAAAAAAAAAAAAAHwBQAAAAAQBBkg0CAKAACAADCsAk/ljcFoyDA5AABAAZhAHhSC/llBBGAKQAAAACCMGwYvO0ca08qHBt5ob2kD8GHdKG9pA/DQrpoH+nCWMoWnfG+MB6IB+YEEMAwCADA5+jIUCkI6ICEOKq1mIiPAFSp/g9sXkOz7gRJgGd8S4CxOfzd3VVVmZkBwUQAAAAAAADyX40AMAEAAAAAAIAgBbwNFABgEEgecTNkgxSChTiDA8AEgAAAAAAAQiAAxHk5l/Xv0/EN0eW9+S2meMp11xc=";
+/// 16 x 16 pixels (240 - 8 x, 30 + 6 y, 120, 255 - 12 x), packed as UASTC and by Zstandard.
+const UASTC: &str = "q0tUWCAyMLsNChoKAAAAAAEAAAAQAAAAEAAAAAAAAAAAAAAAAQAAAAEAAAACAAAAaAAAACwAAACUAAAAJAAAAAAAAAAAAAAAAAAAAAAAAAC4AAAAAAAAAI0AAAAAAAAAAAEAAAAAAAAsAAAAAAAAAAIAKACmAQIAAwMAAAAAAAAAAAAAAAB/AwAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDEuMTYAACi1L/1gAAAdBADEBQBQiUpNkblHETJUdpi63P5dkrnfEgCJam6TubcTUIlqvpO5OxIJT00ZuhhQCU9dGroYAAlvbhu6GFAJb74buslMTSG7XSK7yWxuI7vJbL4juxCxu12yELO7ELO7FSiQ4wIPEFAhuR0QlrdBQAxEIZT5Yd8Az0IzGGUG9HhzVxvwlw==";
+
+fn eight_bits(text: &str, name: &str) -> (u32, u32, usize, Vec<u8>) {
+    let bytes = STANDARD.decode(text).expect("base64");
+    let image = read(&bytes, name, Limits::default()).expect("a sound picture");
+    let ImageData::U8(pixels) = image.data else { panic!("eight bits a channel") };
+    (image.width, image.height, image.channels as usize, pixels)
+}
+
+#[test]
+fn pictures_packed_for_graphics_cards_are_read() {
+    let (width, height, channels, pixels) = eight_bits(ETC1S, "a.ktx2");
+    assert_eq!((width, height, channels), (22, 17, 3));
+    let at = |x: usize, y: usize| &pixels[3 * (x + 22 * y)..][..3];
+    // What the encoder's own transcoder gives.
+    assert_eq!(at(0, 0), [16, 7, 40]);
+    assert_eq!(at(21, 0), [214, 16, 181]);
+    assert_eq!(at(5, 9), [69, 135, 52]);
+    assert_eq!(at(21, 16), [224, 233, 200]);
+    assert_eq!(at(11, 3), [152, 62, 128]);
+    assert_eq!(pixels.iter().map(|v| u32::from(*v)).sum::<u32>(), 139630);
+    let (width, height, channels, pixels) = eight_bits(UASTC, "a.ktx2");
+    assert_eq!((width, height, channels), (16, 16, 4));
+    for (i, pixel) in (0..).zip(pixels.chunks(4)) {
+        let (x, y) = (i % 16, i / 16);
+        let expected = [240 - 8 * x, 30 + 6 * y, 120, 255 - 12 * x];
+        let off = pixel.iter().zip(expected).map(|(a, b)| (i32::from(*a) - b).abs()).max();
+        assert!(off <= Some(4), "{x} {y}: {pixel:?} {expected:?}");
+    }
+}
+
+#[test]
+fn damaged_packed_pictures_are_refused_or_other_pictures() {
+    for text in [ETC1S, UASTC] {
+        let bytes = STANDARD.decode(text).expect("base64");
+        let limits = Limits { image_pixels: 1 << 16, ..Limits::default() };
+        for place in 0..bytes.len() {
+            assert!(read(&bytes[..place], "a.ktx2", limits).is_err(), "{place}");
+            for bit in 0..8 {
+                let mut bytes = bytes.clone();
+                bytes[place] ^= 1 << bit;
+                let _ = read(&bytes, "a.ktx2", limits);
+            }
+        }
+    }
+    let mut bytes = STANDARD.decode(ETC1S).expect("base64");
+    bytes[12] = 43;
+    let error = read(&bytes, "a.ktx2", Limits::default()).expect_err("not packed").to_string();
+    assert!(error.contains("not packed by Basis Universal") && error.contains("PNG"), "{error}");
+    bytes[12] = 0;
+    bytes[36] = 6;
+    let error = read(&bytes, "a.ktx2", Limits::default()).expect_err("a cube").to_string();
+    assert!(error.contains("more than one picture"), "{error}");
+}
+
 #[test]
 fn other_formats_are_refused_by_name() {
     let cases: [(&[u8], &str, &str); 4] = [
         (b"GIF89a\0\0\0", "a.gif", "GIF"),
-        (b"\xabKTX 20\xbb\r\n\x1a\n", "a.ktx2", "KTX 2"),
+        (b"\xabKTX 11\xbb\r\n\x1a\n", "a.ktx", "KTX"),
         (b"DDS \0\0", "a.dds", "DDS"),
         (b"hello", "a.txt", "not an image of a known format"),
     ];

@@ -119,6 +119,14 @@ impl LightChooser {
         let tree = LightTree::new(bounds.into_iter());
         Self { sources, powers, members, tree, beside, lamps, places }
     }
+
+    /// Those of these lights that are beside the tree.
+    fn beside(&self, among: Among) -> &[u32] {
+        match among {
+            Among::All => &self.beside,
+            Among::Lamps => &self.beside[..self.lamps],
+        }
+    }
 }
 
 /// The lights that send particles, by their power.
@@ -152,10 +160,7 @@ struct Shares<'s> {
 impl<'s> Shares<'s> {
     fn new(scene: &'s Scene, at: &'s Lit, among: Among) -> Self {
         let chooser = &scene.chooser;
-        let beside = match among {
-            Among::All => &chooser.beside[..],
-            Among::Lamps => &chooser.beside[..chooser.lamps],
-        };
+        let beside = chooser.beside(among);
         let tree = chooser.tree.as_ref().map_or(0.0, |tree| tree.estimate(at.p, at.n));
         let one = |estimate: f32| f32::from(u8::from(estimate > 0.0));
         let mut shares = Self { scene, at, beside, tree, total: tree, count: one(tree) };
@@ -242,7 +247,7 @@ impl Scene {
     }
 
     fn choose_by_tree(&self, at: &Lit, among: Among, u: f32) -> Option<Chosen> {
-        if let (Some(tree), []) = (&self.chooser.tree, &self.chooser.beside[..]) {
+        if let (Some(tree), []) = (&self.chooser.tree, self.chooser.beside(among)) {
             let picked = tree.choose(at.p, at.n, f64::from(u))?;
             let light = self.chooser.members[picked.index] as usize;
             return Some(Chosen { light, chance: picked.chance as f32 });
@@ -269,7 +274,7 @@ impl Scene {
 
     fn chance_by_tree(&self, at: &Lit, among: Among, light: usize) -> f32 {
         if let (Place::Tree(member), Some(tree), []) =
-            (self.chooser.places[light], &self.chooser.tree, &self.chooser.beside[..])
+            (self.chooser.places[light], &self.chooser.tree, self.chooser.beside(among))
         {
             return tree.chance(at.p, at.n, member as usize) as f32;
         }

@@ -86,7 +86,11 @@ const PARTS: &[(&str, &str, &str)] = &[
         "/accessors/0/sparse",
         r#"{"count": 1, "indices": {"bufferView": 2, "componentType": 5125}, "values": {"bufferView": 0}}"#,
     ),
-    ("pictures as KTX2", "/images/0/mimeType", r#""image/ktx2""#),
+    (
+        "pictures as KTX 2, packed by Basis Universal",
+        "/images/0/uri",
+        r#""data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAAEAAAAQAAAAEAAAAAAAAAAAAAAAAQAAAAEAAAACAAAAaAAAACwAAACUAAAAJAAAAAAAAAAAAAAAAAAAAAAAAAC4AAAAAAAAAI0AAAAAAAAAAAEAAAAAAAAsAAAAAAAAAAIAKACmAQIAAwMAAAAAAAAAAAAAAAB/AwAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDEuMTYAACi1L/1gAAAdBADEBQBQiUpNkblHETJUdpi63P5dkrnfEgCJam6TubcTUIlqvpO5OxIJT00ZuhhQCU9dGroYAAlvbhu6GFAJb74buslMTSG7XSK7yWxuI7vJbL4juxCxu12yELO7ELO7FSiQ4wIPEFAhuR0QlrdBQAxEIZT5Yd8Az0IzGGUG9HhzVxvwlw==""#,
+    ),
     (
         "pictures as WebP",
         "/images/0/uri",

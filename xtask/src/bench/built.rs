@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::{cargo, root};
 
 /// The folder of test files; it need not be there.
-pub(super) fn assets() -> anyhow::Result<PathBuf> {
+pub(crate) fn assets() -> anyhow::Result<PathBuf> {
     match env::var_os("DURER_SHARED") {
         Some(folder) => Ok(PathBuf::from(folder).join("assets")),
         None => Ok(root()?.join("../shared/assets")),

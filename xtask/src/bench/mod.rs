@@ -2,10 +2,13 @@
 mod built;
 mod embree;
 pub(crate) mod kernel;
+pub(crate) mod load;
 pub(crate) mod render;
 pub(crate) mod samplers;
 mod spheres;
 pub(crate) mod view;
+
+pub(crate) use built::assets;
 
 /// The middle; of an even number of values the mean of the two in the middle.
 fn median(mut values: Vec<f64>) -> f64 {

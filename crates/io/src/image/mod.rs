@@ -2,6 +2,7 @@
 //!
 //! A new format in is a line in `SIGNATURES` and one in `SUFFIXES`; a new format out is a line in [`WRITERS`].
 
+mod basis;
 mod exr;
 mod jpeg;
 mod output;
@@ -55,7 +56,7 @@ const SIGNATURES: &[Signature] = &[
     known(b"Pf\r\n", "portable float map (PFM)", pfm::decode),
     foreign(b"GIF8", 0, "GIF"),
     Signature { bytes: b"WEBP", offset: 8, name: "WebP", decode: Some(raster::decode_webp) },
-    foreign(b"\xabKTX 20\xbb\r\n\x1a\n", 0, "KTX 2"),
+    known(b"\xabKTX 20\xbb\r\n\x1a\n", "KTX 2", basis::decode),
     foreign(b"\xabKTX 11\xbb\r\n\x1a\n", 0, "KTX"),
     foreign(b"DDS ", 0, "DirectDraw surface (DDS)"),
     foreign(b"II*\0", 0, "TIFF"),
@@ -72,6 +73,7 @@ const SUFFIXES: &[(&str, &str)] = &[
     (".hdr", "Radiance HDR"),
     (".bmp", "BMP"),
     (".webp", "WebP"),
+    (".ktx2", "KTX 2"),
     (".pfm", "PFM"),
 ];
 
@@ -89,14 +91,14 @@ pub(crate) fn suffix_of(bytes: &[u8]) -> Option<&'static str> {
     SUFFIXES.iter().find(|(_, format)| name.contains(format)).map(|(suffix, _)| *suffix)
 }
 
-/// Decodes a PNG, JPEG, WebP, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
+/// Decodes a PNG, JPEG, WebP, KTX 2, OpenEXR, Radiance HDR, PFM, BMP or TGA file, told apart by content. `name` is what errors call it.
 ///
 /// # Errors
 /// If the format is another one, the data is damaged, or the image is larger than `limits` allow.
 pub fn read(bytes: &[u8], name: &str, limits: Limits) -> Result<Image, AssetError> {
     let source = Source { bytes, name, limits };
     let starts = |s: &&Signature| bytes.get(s.offset..).is_some_and(|b| b.starts_with(s.bytes));
-    const READ: &str = "durer reads PNG, JPEG, WebP, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
+    const READ: &str = "durer reads PNG, JPEG, WebP, KTX 2, OpenEXR, Radiance HDR, PFM, BMP and TGA images";
     match SIGNATURES.iter().find(starts) {
         Some(Signature { decode: Some(decode), .. }) => decode(&source),
         Some(Signature { name, .. }) => Err(source.unsupported(format!("a {name} file; {READ}"))),

@@ -22,6 +22,10 @@ impl<'a> Bytes<'a> {
     pub(super) fn new(data: &'a [u8]) -> Self {
         Self { data, at: 0 }
     }
+    /// Bytes of the file.
+    pub(super) fn length(&self) -> usize {
+        self.data.len()
+    }
     pub(super) fn take(&mut self, count: usize) -> Result<&'a [u8], Why> {
         let end = self.at.checked_add(count);
         let found = end.and_then(|end| self.data.get(self.at..end));

@@ -12,9 +12,14 @@ const INNER: [usize; 2] = [5, 4];
 const LEAF: usize = 512;
 /// Edge of a leaf, in voxels.
 const EDGE: i32 = 8;
+/// Bytes of values that a byte of the file may become: a leaf, which has two masks at least, becomes less. What is full of
+/// large cubes of different values becomes more; such files are made to fill memory.
+const MOST_PER_BYTE: usize = 16;
+/// Bytes that any file may become.
+const FREE: usize = 64 << 20;
 
 /// The voxels of a tree.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Tree {
     pub(super) blocks: VoxelBlocks,
 }
@@ -31,7 +36,7 @@ struct Reader<'b, 'd> {
 }
 
 fn too_large() -> Why {
-    Why::TooLarge("its voxels take more than 4 GiB".to_owned())
+    Why::TooLarge("its voxels take more than 4 GiB, or more than a file of this length holds".to_owned())
 }
 
 /// The parts of `n` in steps of `2^log` along x, y and z; z changes fastest.
@@ -42,10 +47,11 @@ fn local(n: usize, log: usize) -> [i32; 3] {
 
 impl Tree {
     pub(super) fn read(bytes: &mut Bytes<'_>, packing: Packing, is_level_set: bool) -> Result<Self, Why> {
+        let room = bytes.length().saturating_mul(MOST_PER_BYTE).saturating_add(FREE);
         bytes.u32()?;
         let background = bytes.f32()?;
         let (tiles, children) = (bytes.u32()?, bytes.u32()?);
-        let (tree, leaves) = (Self::default(), Vec::new());
+        let (tree, leaves) = (Self { blocks: VoxelBlocks::new(room) }, Vec::new());
         let mut reader = Reader { bytes, packing, background, is_level_set, tree, leaves };
         for _ in 0..tiles {
             let origin = reader.bytes.index()?;

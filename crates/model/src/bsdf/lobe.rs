@@ -132,6 +132,39 @@ impl Lobe {
             _ => self.add_branches(wo, branches),
         }
     }
+    /// Whether rays may follow it: mirrored, passed on or drawn.
+    pub(super) fn is_followed(&self) -> bool {
+        match self {
+            Self::Diffuse { .. }
+            | Self::Ambient { .. }
+            | Self::Highlight(_)
+            | Self::Matte(_)
+            | Self::Hair(_)
+            | Self::Behind { .. } => false,
+            Self::Mirror { .. } | Self::Interface(_) | Self::PassThrough { .. } => true,
+            Self::Glossy(_) | Self::Tilted(_) => true,
+            Self::Gloss(_)
+            | Self::Blurred(_)
+            | Self::Phong(_)
+            | Self::Varnish(_)
+            | Self::Layered(_)
+            | Self::Sheet(_) => true,
+        }
+    }
+    /// Whether directions can be drawn from it.
+    pub(super) fn spreads(&self) -> bool {
+        match self {
+            Self::Gloss(_)
+            | Self::Blurred(_)
+            | Self::Phong(_)
+            | Self::Varnish(_)
+            | Self::Layered(_)
+            | Self::Sheet(_) => true,
+            Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
+            Self::Mirror { .. } | Self::Interface(_) | Self::PassThrough { .. } => false,
+            _ => self.is_followed(),
+        }
+    }
     /// Adds directions drawn at a point of the unit square, if the lobe spreads them.
     pub(super) fn draw(&self, wo: Vector3, u: Point2, draws: &mut Draws) {
         match self {

@@ -284,23 +284,18 @@ impl Bsdf {
         branches.dim(self.arriving);
         branches
     }
+    /// Whether rays may follow a lobe: those of [`Bsdf::branches`] or [`Bsdf::draws`].
+    pub fn is_followed(&self) -> bool {
+        self.lobes().any(Lobe::is_followed)
+    }
     /// Whether directions can be drawn from a lobe.
     pub fn spreads(&self) -> bool {
-        self.lobes().any(|lobe| match lobe {
-            Lobe::Gloss(_)
-            | Lobe::Blurred(_)
-            | Lobe::Phong(_)
-            | Lobe::Varnish(_)
-            | Lobe::Layered(_)
-            | Lobe::Sheet(_) => true,
-            Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
-            _ => false,
-        })
+        self.lobes().any(Lobe::spreads)
     }
     /// A direction of every lobe that spreads, at the point of the unit square that `u` gives for it.
     pub fn draws(&self, wo: Vector3, mut u: impl FnMut(u32) -> Point2) -> Draws {
         let mut draws = Draws::default();
-        for (number, lobe) in (0..).zip(self.lobes()) {
+        for (number, lobe) in (0..).zip(self.lobes()).filter(|(_, lobe)| lobe.spreads()) {
             lobe.draw(wo, u(number), &mut draws);
         }
         draws.dim(self.arriving);

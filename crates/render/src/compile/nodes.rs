@@ -9,13 +9,16 @@ use durer_model::{
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Diagnostics, Entry, Missing, NamedNode, Node, Params, SceneDesc, ShapeSource, TextureDesc,
-    TextureNames, find,
+    Args, Assets, Data, Diagnostics, Entry, Missing, NamedNode, Node, Params, SceneDesc, ShapeSource,
+    TextureDesc, TextureNames, ValueType, find,
 };
 
 use rayon::prelude::*;
 
 use crate::integrator::{INTEGRATORS, Integrator};
+
+/// Most textures that are asked for the value of one, itself and those that it is made of, each as often as it is asked.
+const MOST_ASKED: u64 = 1 << 12;
 
 /// Builds nodes and collects complaints about them.
 pub(super) struct Builder<'a> {
@@ -78,6 +81,9 @@ impl Builder<'_> {
     /// The textures that could be built; a texture may use only those described before it, so there are no loops.
     pub(super) fn textures(&mut self) -> Vec<Box<dyn Texture>> {
         let all = &self.desc.textures;
+        if !self.are_few_asked() {
+            return Vec::new();
+        }
         warn_stand_ins("texture", all.iter().map(|t| &t.node), texture::NOT_YET, self.diagnostics);
         let nodes: Vec<_> = all.iter().map(|t| stand_in(&t.node, texture::NOT_YET)).collect();
         let built = self.build_all(all, |this, i, t| {
@@ -85,6 +91,28 @@ impl Builder<'_> {
             this.apart(texture::textures(t.value), "texture", &nodes[i], (before, &[]))
         });
         built.into_iter().flatten().collect()
+    }
+
+    /// Complains about a texture that asks too many others: those that ask one before them twice double its work.
+    fn are_few_asked(&mut self) -> bool {
+        let mut asked: HashMap<&str, u64> = HashMap::new();
+        for texture in &self.desc.textures {
+            let inputs = texture.node.params.iter().filter(|param| param.ty == ValueType::Texture);
+            let names = inputs.flat_map(|param| match &param.data {
+                Data::Strings(names) => names.as_slice(),
+                _ => &[],
+            });
+            let own = 1 + names.filter_map(|name| asked.get(name.as_str())).sum::<u64>();
+            if own > MOST_ASKED {
+                let name = &texture.name;
+                let message = format!("texture \"{name}\" asks more than {MOST_ASKED} others for each value");
+                let hint = "a texture that uses another one twice asks it twice, and so on down";
+                self.diagnostics.error(texture.node.at.clone(), message).hint(hint);
+                return false;
+            }
+            asked.insert(&texture.name, own);
+        }
+        true
     }
 
     pub(super) fn materials(&mut self) -> Vec<Box<dyn Material>> {

@@ -63,7 +63,7 @@ impl Job<'_> {
             let job = self.of_pass(shared.as_ref());
             let (eye, _) = job.eye(pixel, sample);
             if !job.is_blocked(&eye) {
-                job.integrator.count(&job.cx(&eye.ray.sampler), eye.ray, out, &mut own.counters);
+                job.integrator.count(&job.cx(&eye.ray.sampler), &eye.ray, out, &mut own.counters);
             }
         }
         own.busy = start.elapsed();

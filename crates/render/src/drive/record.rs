@@ -73,7 +73,7 @@ impl Job<'_> {
         let cx = self.cx(&ray.sampler);
         let mut recorder = Recorder::new(&cx, detail);
         let mut out = Contribution::default();
-        self.integrator.record(&cx, *ray, &mut out, &mut recorder);
+        self.integrator.record(&cx, ray, &mut out, &mut recorder);
         let value = film_value(&cx, &out, *gain).unwrap_or([0.0; 3]);
         let mut tree = recorder.finish(&value);
         let (view, nesting) = (&self.scene.view, self.settings.nesting);
@@ -114,7 +114,7 @@ impl Job<'_> {
         if self.integrator.facts().particles != Particles::None {
             // What a ray brings depends on all of the two walks, or on what was gathered before it.
             let mut out = Contribution::default();
-            let eye = tree.nodes.first()?.path;
+            let eye = &tree.nodes.first()?.path;
             let shared = self.kept(eye.sampler.index());
             let job = self.of_pass(shared.as_ref());
             job.integrator.record(&cx, eye, &mut out, &mut recorder);

@@ -153,9 +153,9 @@ impl Transport for AmbientOcclusion {
     ) {
         let (ray, kind) = match start {
             Start::Eye(ray) => (ray, RayKind::Eye),
-            Start::Again(node) => (node.path, node.kind),
+            Start::Again(node) => (&node.path, node.kind),
         };
-        let (radiance, rays) = self.follow(cx, &ray, kind, parent, probe);
+        let (radiance, rays) = self.follow(cx, ray, kind, parent, probe);
         out.value = Value::Radiance(radiance);
         out.rays = rays;
     }

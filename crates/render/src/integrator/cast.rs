@@ -97,24 +97,24 @@ impl Transport for Cast {
     ) {
         let ray = match start {
             Start::Eye(ray) => ray,
-            Start::Again(node) => node.path,
+            Start::Again(node) => &node.path,
         };
-        let id = probe.ray(parent, &ray, RayKind::Eye);
+        let id = probe.ray(parent, ray, RayKind::Eye);
         out.rays = 1;
-        let counts = (self.show == Show::Cost).then(|| count(cx, &ray));
+        let counts = (self.show == Show::Cost).then(|| count(cx, ray));
         out.value = match cx.scene.closest(cx, &ray.ray, probe, id) {
             Some(hit) => {
-                let s = Shading::at(cx, &ray.ray, &hit, Some(Onlooker::of(&ray, Habit::Asked)));
+                let s = Shading::at(cx, &ray.ray, &hit, Some(Onlooker::of(ray, Habit::Asked)));
                 probe.surface(id, s.object, &hit, &s.surface);
                 if P::RECORDS {
                     probe.shaded(id, &self.shaded(cx, &s));
                 }
                 probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
-                self.hit(cx, &ray, &hit, &s)
+                self.hit(cx, ray, &hit, &s)
             }
             None => {
                 probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
-                self.miss(cx, &ray)
+                self.miss(cx, ray)
             }
         };
         if let Some(counts) = counts {

@@ -57,7 +57,7 @@ impl Transport for LightTracing {
     ) {
         let mut walk = Walk::new(&self.rules, cx, probe);
         let (ray, kind, is_eye) = match start {
-            Start::Eye(ray) => (PathRay { media: cx.scene.start, ..ray }, RayKind::Eye, true),
+            Start::Eye(ray) => (PathRay { media: cx.scene.start, ..*ray }, RayKind::Eye, true),
             Start::Again(node) => (node.path, node.kind, false),
         };
         let id = walk.probe.ray(parent, &ray, kind);

@@ -95,7 +95,7 @@ pub struct Facts {
 #[allow(clippy::large_enum_variant, reason = "made once for each sample, and never kept")]
 pub enum Start<'a> {
     /// An eye ray.
-    Eye(PathRay),
+    Eye(&'a PathRay),
     /// A recorded ray, once more.
     Again(&'a TreeNode),
 }
@@ -158,13 +158,13 @@ pub trait Integrator: Send + Sync {
         None
     }
     /// [`Transport::trace`] of an eye ray, unwatched.
-    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution);
+    fn sample(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution);
     /// [`Transport::trace`] of an eye ray, recorded.
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>);
+    fn record(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>);
     /// [`Transport::trace`] of a recorded ray, recorded.
     fn replay(&self, cx: &SampleCx<'_>, node: &TreeNode, out: &mut Contribution, recorder: &mut Recorder<'_>);
     /// [`Transport::trace`] of an eye ray, counted.
-    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters);
+    fn count(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, counters: &mut Counters);
 }
 
 impl<T: Transport> Integrator for T {
@@ -184,10 +184,10 @@ impl<T: Transport> Integrator for T {
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         Transport::eye_samples(self, asked)
     }
-    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
+    fn sample(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution) {
         self.trace(cx, Start::Eye(ray), (), &mut NoProbe, out);
     }
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
+    fn record(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
         self.trace(cx, Start::Eye(ray), Default::default(), recorder, out);
     }
     fn replay(
@@ -199,7 +199,7 @@ impl<T: Transport> Integrator for T {
     ) {
         self.trace(cx, Start::Again(node), Default::default(), recorder, out);
     }
-    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
+    fn count(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, counters: &mut Counters) {
         self.trace(cx, Start::Eye(ray), Default::default(), counters, out);
     }
 }

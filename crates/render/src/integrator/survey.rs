@@ -73,11 +73,11 @@ impl Integrator for Surveyed {
         let integrator = self.integrator.with(photons)?;
         Some(Box::new(Self { integrator, survey: self.survey }))
     }
-    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
+    fn sample(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution) {
         self.integrator.sample(cx, ray, out);
         Self::look(cx, out);
     }
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
+    fn record(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
         self.integrator.record(cx, ray, out, recorder);
         Self::look(cx, out);
     }
@@ -91,7 +91,7 @@ impl Integrator for Surveyed {
         self.integrator.replay(cx, node, out, recorder);
         Self::look(cx, out);
     }
-    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
+    fn count(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, counters: &mut Counters) {
         self.integrator.count(cx, ray, out, counters);
         Self::look(cx, out);
     }

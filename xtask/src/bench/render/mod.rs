@@ -23,6 +23,7 @@ pub(crate) use options::Options;
 use picture::Picture;
 use renderer::{Cost, Renderer};
 use scene::Scene;
+pub(super) use set_up::mitsuba_python;
 
 /// Worker threads of every renderer.
 const THREADS: u32 = 2;

@@ -37,6 +37,12 @@ const PACKAGES: [Package; 2] = [
     Package { name: "bpy", wanted: "bpy>=4.3,<6", script: "cycles_peer.py", renderers: &[("cycles", &[])] },
 ];
 
+/// The Python of an environment in which Mitsuba is, for other benchmarks too. If it cannot be had, why.
+pub(in crate::bench) fn mitsuba_python(folder: &Path) -> Result<PathBuf, String> {
+    let [mitsuba, _] = &PACKAGES;
+    mitsuba.install(folder).map(|(python, _)| python)
+}
+
 /// All that were asked for and can be had, ours first, and what cannot.
 pub(super) fn renderers(program: &Path, folder: &Path, options: &Options) -> (Vec<Renderer>, Vec<Skipped>) {
     let (mut found, mut skipped) = (Vec::new(), Vec::new());

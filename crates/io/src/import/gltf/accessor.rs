@@ -13,7 +13,7 @@ const AT_ONCE: usize = 1 << 14;
 
 /// The type of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Component {
+pub(super) enum Component {
     I8,
     U8,
     I16,
@@ -37,12 +37,87 @@ impl Component {
             }
         })
     }
-    const fn size(self) -> usize {
+    pub(super) const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
             Self::U32 | Self::F32 => 4,
         }
+    }
+    /// Appends a number as files hold it, the nearest that there is.
+    pub(super) fn put(self, value: f32, bytes: &mut Vec<u8>) {
+        match self {
+            Self::I8 => bytes.extend((value as i8).to_le_bytes()),
+            Self::I16 => bytes.extend((value as i16).to_le_bytes()),
+            Self::F32 => bytes.extend(value.to_le_bytes()),
+            Self::U8 | Self::U16 | Self::U32 => self.put_index(value as u32, bytes),
+        }
+    }
+    /// The same of a whole number.
+    pub(super) fn put_index(self, value: u32, bytes: &mut Vec<u8>) {
+        match self {
+            Self::U8 => bytes.push(u8::try_from(value).unwrap_or(u8::MAX)),
+            Self::U16 => bytes.extend(u16::try_from(value).unwrap_or(u16::MAX).to_le_bytes()),
+            Self::U32 => bytes.extend(value.to_le_bytes()),
+            Self::I8 | Self::I16 | Self::F32 => self.put(value as f32, bytes),
+        }
+    }
+}
+
+/// What an accessor says that it holds, wherever that is.
+pub(super) struct Announced<'a> {
+    /// Where it is described.
+    pub(super) element: Element<'a>,
+    /// Number of elements.
+    pub(super) count: usize,
+    /// The type of its numbers.
+    pub(super) component: Component,
+    columns: usize,
+    rows: usize,
+}
+
+impl<'a> Announced<'a> {
+    /// What `element` says.
+    pub(super) fn read(element: Element<'a>) -> Checked<Self> {
+        let component = Component::parse(&element.required("componentType")?)?;
+        let shape = element.required("type")?;
+        let (columns, rows) = match shape.text()? {
+            "SCALAR" => (1, 1),
+            "VEC2" => (1, 2),
+            "VEC3" => (1, 3),
+            "VEC4" => (1, 4),
+            "MAT2" => (2, 2),
+            "MAT3" => (3, 3),
+            "MAT4" => (4, 4),
+            other => {
+                let message =
+                    format!("expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4, found \"{other}\"");
+                return Err(shape.fault(message));
+            }
+        };
+        let count = element.required("count")?.index()?;
+        Ok(Self { element, count, component, columns, rows })
+    }
+    /// Bytes of an element.
+    fn size(&self) -> usize {
+        // The columns of a matrix begin at multiples of 4 bytes.
+        let column = self.rows * self.component.size();
+        if self.columns == 1 { column } else { self.columns * column.next_multiple_of(4) }
+    }
+    /// Bytes of all elements.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.count as u64).saturating_mul(self.size() as u64)
+    }
+    /// Complains unless it says that it holds this.
+    pub(super) fn expect(&self, count: usize, lanes: usize) -> Checked<()> {
+        let own = self.columns * self.rows;
+        if (self.count, own) == (count, lanes) {
+            return Ok(());
+        }
+        let of = |count, lanes| format!("{} of {}", counted(count, "element"), counted(lanes, "number"));
+        let message =
+            format!("announces {}, but its Draco stream holds {}", of(self.count, own), of(count, lanes));
+        Err(self.element.fault(message))
     }
 }
 
@@ -115,34 +190,22 @@ impl<'b, 'a> Accessor<'b, 'a> {
         buffers: &'b Buffers,
         reference: &Element<'a>,
     ) -> Checked<Self> {
-        Self::at(document, buffers, document.item("accessors", reference)?)
+        Self::at(document, buffers, (document.item("accessors", reference)?, reference.index()?))
     }
-    /// The accessor `element`.
-    pub(super) fn at(document: &Document<'a>, buffers: &'b Buffers, element: Element<'a>) -> Checked<Self> {
-        let component = Component::parse(&element.required("componentType")?)?;
-        let shape = element.required("type")?;
-        let (columns, rows) = match shape.text()? {
-            "SCALAR" => (1, 1),
-            "VEC2" => (1, 2),
-            "VEC3" => (1, 3),
-            "VEC4" => (1, 4),
-            "MAT2" => (2, 2),
-            "MAT3" => (3, 3),
-            "MAT4" => (4, 4),
-            other => {
-                let message =
-                    format!("expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4, found \"{other}\"");
-                return Err(shape.fault(message));
-            }
-        };
+    /// The accessor `element`, number `index`.
+    pub(super) fn at(
+        document: &Document<'a>,
+        buffers: &'b Buffers,
+        (element, index): (Element<'a>, usize),
+    ) -> Checked<Self> {
+        let announced = Announced::read(element)?;
+        let size = announced.size();
+        let Announced { element, count, component, columns, rows } = announced;
         let lanes = columns * rows;
-        let count = element.required("count")?.index()?;
-        // The columns of a matrix begin at multiples of 4 bytes.
-        let column = rows * component.size();
-        let size = if columns == 1 { column } else { columns * column.next_multiple_of(4) };
-        let base = match element.get("bufferView")? {
-            Some(_) => Some(strided(document, buffers, &element, count, size)?),
-            None => None,
+        let base = match (buffers.column(index)?, element.get("bufferView")?) {
+            (Some(bytes), _) => Some(Strided { bytes, stride: size }),
+            (None, Some(_)) => Some(strided(document, buffers, &element, count, size)?),
+            (None, None) => None,
         };
         let sparse = match element.get("sparse")? {
             Some(sparse) => Some(Sparse::open(document, buffers, sparse, count, size)?),

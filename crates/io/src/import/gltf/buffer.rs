@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::{
     accessor::Accessor,
     document::{Document, only},
+    draco::{self, Columns},
     element::{Checked, Element, Fault},
     meshopt::{self, Packed},
 };
@@ -86,6 +87,8 @@ pub(super) struct Buffers {
     list: Vec<Checked<Bytes>>,
     /// By buffer view: what those unpack to that are packed.
     unpacked: Vec<Option<Checked<Vec<u8>>>>,
+    /// By accessor: what those hold that are packed together with others.
+    columns: Columns,
 }
 
 /// A stretch of a buffer.
@@ -108,10 +111,15 @@ impl Buffers {
         let load = |(index, element)| load(&element, bin.filter(|_| index == 0), assets);
         let loaded: Vec<_> = buffers.map(load).collect();
         let list = loaded.into_iter().collect::<Checked<_>>()?;
-        let mut buffers = Self { list, unpacked: Vec::new() };
+        let mut buffers = Self { list, unpacked: Vec::new(), columns: Columns::new() };
         let views = document.root.list("bufferViews")?;
         buffers.unpacked = views.into_par_iter().map(|view| buffers.unpack(&view).transpose()).collect();
+        buffers.columns = draco::unpack(document, &buffers)?;
         Ok(buffers)
+    }
+    /// All that an accessor holds, if it is packed together with others.
+    pub(super) fn column(&self, accessor: usize) -> Checked<Option<&[u8]>> {
+        self.columns.get(&accessor).map(|bytes| bytes.as_deref().map_err(Fault::clone)).transpose()
     }
     /// What a buffer view unpacks to, if it is packed.
     fn unpack(&self, view: &Element<'_>) -> Checked<Option<Vec<u8>>> {
@@ -139,14 +147,15 @@ impl Buffers {
         for (index, view) in document.root.list("bufferViews")?.into_iter().enumerate() {
             document.keep_if(self.view_at(document, (view, index)), matters);
         }
-        for accessor in document.root.list("accessors")? {
-            document.keep_if(Accessor::at(document, self, accessor), matters);
+        for (index, accessor) in document.root.list("accessors")?.into_iter().enumerate() {
+            document.keep_if(Accessor::at(document, self, (accessor, index)), matters);
         }
         Ok(())
     }
     /// Bytes of all buffers together.
     pub(super) fn total(&self) -> u64 {
-        let unpacked = self.unpacked.iter().flatten().flatten().map(|bytes| bytes.len() as u64);
+        let unpacked = self.unpacked.iter().flatten().chain(self.columns.values());
+        let unpacked = unpacked.flatten().map(|bytes| bytes.len() as u64);
         self.list.iter().flatten().map(|b| b.as_slice().len() as u64).chain(unpacked).sum()
     }
     /// Warns about buffers that could not be loaded, which nobody has used, or that would have been complained about.

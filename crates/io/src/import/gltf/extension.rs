@@ -12,6 +12,7 @@ const READ: &[&str] = &[
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -29,6 +30,7 @@ const READ: &[&str] = &[
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
@@ -39,11 +41,8 @@ const HARMLESS: &[&str] = &["KHR_xmp", "KHR_xmp_json_ld"];
 const LOOKS_ONLY: &[&str] = &["KHR_materials_pbrSpecularGlossiness"];
 
 /// Not read, and data is missing without them; with a way out.
-const REFUSED: &[(&str, &str)] = &[
-    ("EXT_texture_avif", "convert the textures: `gltf-transform png in.glb out.glb`"),
-    ("KHR_draco_mesh_compression", "decompress it: `gltf-transform copy in.glb out.glb`"),
-    ("KHR_texture_basisu", "convert the textures: `gltf-transform ktxdecompress in.glb out.glb`"),
-];
+const REFUSED: &[(&str, &str)] =
+    &[("EXT_texture_avif", "convert the textures: `gltf-transform png in.glb out.glb`")];
 
 fn known() -> impl Iterator<Item = &'static str> {
     READ.iter().chain(HARMLESS).chain(LOOKS_ONLY).copied().chain(REFUSED.iter().map(|(name, _)| *name))

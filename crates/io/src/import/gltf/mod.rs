@@ -12,6 +12,7 @@ mod buffer;
 mod camera;
 mod container;
 mod document;
+mod draco;
 mod element;
 mod extension;
 mod instance;

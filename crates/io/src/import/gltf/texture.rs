@@ -11,6 +11,9 @@ use super::{
 };
 use crate::FileAssets;
 
+/// Extensions that give textures images of other formats, the better first.
+const OTHER_IMAGES: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
+
 /// What a texture is used for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
@@ -104,11 +107,13 @@ impl<'b, 'a> Textures<'b, 'a> {
     /// The file name of a texture's image and where that is described; embedded ones are registered under a name of
     /// their own.
     fn image(&mut self, texture: &Element<'a>) -> Checked<Option<(String, Location)>> {
-        let webp = match texture.extension("EXT_texture_webp")? {
-            Some(extension) => extension.get("source")?,
-            None => None,
-        };
-        let Some(source) = webp.or(texture.get("source")?) else {
+        let mut other = None;
+        for name in OTHER_IMAGES {
+            if let Some(extension) = texture.extension(name)? {
+                other = other.or(extension.get("source")?);
+            }
+        }
+        let Some(source) = other.or(texture.get("source")?) else {
             let other: Vec<&str> = texture.get("extensions")?.iter().flat_map(Element::keys).collect();
             let why =
                 if other.is_empty() { "has no image".into() } else { format!("needs {}", other.join(", ")) };

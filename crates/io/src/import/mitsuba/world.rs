@@ -37,7 +37,12 @@ pub(super) struct World<'i> {
     told: HashSet<String>,
     /// Objects that are being made, outermost first.
     depth: usize,
+    /// Objects that were made, those of instances again for each.
+    made: usize,
 }
+
+/// Most objects that are made: instances of instances, and materials of materials, multiply.
+const MOST_MADE: usize = 1 << 20;
 
 /// A plugin that we have a counterpart of.
 pub(super) struct Plugin<B> {
@@ -87,6 +92,7 @@ impl<'i> World<'i> {
             meshes: HashMap::new(),
             told: HashSet::new(),
             depth: 0,
+            made: 0,
         }
     }
 
@@ -155,7 +161,7 @@ impl<'i> World<'i> {
         self.object(child)
     }
 
-    /// Does something one level deeper; complains if objects contain themselves.
+    /// Does something one level deeper; complains if objects contain themselves, or are too many.
     pub(super) fn deeper<T>(
         &mut self,
         object: &Object,
@@ -165,6 +171,14 @@ impl<'i> World<'i> {
         if self.depth >= DEEPEST {
             self.said
                 .error(object.at, format!("{} is in itself, or more than {DEEPEST} deep", object.shown()));
+            return None;
+        }
+        self.made += 1;
+        if self.made == MOST_MADE {
+            let message = format!("more than {MOST_MADE} objects, those in groups counted for each instance");
+            self.said.error(object.at, message).hint("groups in groups and materials in materials multiply");
+        }
+        if self.made >= MOST_MADE {
             return None;
         }
         self.depth += 1;

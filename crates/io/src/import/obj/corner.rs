@@ -1,5 +1,5 @@
 //! Corners of faces: `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from -1.
-use crate::import::text::{Part, integer};
+use crate::import::text::{Part, ends, integer, short_integer};
 
 /// What a corner says of an attribute it does not have.
 pub(super) const NONE: u32 = u32::MAX;
@@ -11,6 +11,35 @@ pub(super) enum Wrong {
     Form,
     /// There is no such element.
     Range(i64),
+}
+
+/// The corner that `text` begins with and the bytes it takes, if it is sound: nearly all are. For the others there is
+/// [`resolve`]. PERF: `cargo xtask bench load`.
+#[inline]
+pub(super) fn leading(text: &[u8], so_far: [usize; 3], total: [usize; 3]) -> Option<([u32; 3], usize)> {
+    let mut indices = [NONE; 3];
+    let mut rest = text;
+    for (place, (index, (before, all))) in indices.iter_mut().zip(so_far.into_iter().zip(total)).enumerate() {
+        match rest {
+            [b'/', ..] if place > 0 => {}
+            _ => {
+                let (written, behind) = short_integer(rest)?;
+                *index = from_zero(written, before).filter(|&i| (i as usize) < all)?;
+                rest = behind;
+            }
+        }
+        match rest {
+            [b'/', behind @ ..] => rest = behind,
+            _ => return ends(rest).then_some((indices, text.len() - rest.len())),
+        }
+    }
+    None
+}
+
+/// An index as written, counted from 0.
+#[inline]
+fn from_zero(written: i64, before: usize) -> Option<u32> {
+    u32::try_from(if written < 0 { before as i64 + written } else { written - 1 }).ok()
 }
 
 /// Position, texture coordinates and normal as indices from 0. `so_far` counts what stands before, `total` what is in
@@ -33,8 +62,7 @@ pub(super) fn resolve(
         }
         let written = integer(field).or_else(|| huge(field)).ok_or(Wrong::Form)?;
         let (before, all) = (so_far.get(place).copied().unwrap_or(0), total.get(place).copied().unwrap_or(0));
-        let from_zero = if written < 0 { before as i64 + written } else { written - 1 };
-        match u32::try_from(from_zero).ok().filter(|&i| (i as usize) < all) {
+        match from_zero(written, before).filter(|&i| (i as usize) < all) {
             Some(found) => *index = found,
             None if place == 0 => return Err(Wrong::Range(written)),
             None => {
@@ -59,10 +87,28 @@ fn huge(field: &[u8]) -> Option<i64> {
 mod tests {
     use super::*;
 
+    /// Both ways, which must agree.
     fn at(word: &str) -> (Result<[u32; 3], Wrong>, usize) {
         let mut lost = [0; 2];
-        let found = resolve(Part::whole(word.as_bytes()), [5, 4, 3], [10, 8, 6], &mut lost);
+        let (so_far, total) = ([5, 4, 3], [10, 8, 6]);
+        let found = resolve(Part::whole(word.as_bytes()), so_far, total, &mut lost);
+        for behind in ["", " 1", "\r"] {
+            if let Some((corner, len)) = leading(format!("{word}{behind}").as_bytes(), so_far, total) {
+                assert_eq!((found, lost, len), (Ok(corner), [0; 2], word.len()), "{word}");
+            }
+        }
         (found, lost.iter().sum())
+    }
+
+    #[test]
+    fn sound_corners_are_read_at_once() {
+        let read = |text: &str| leading(text.as_bytes(), [5, 4, 3], [10, 8, 6]);
+        assert_eq!(read("10/8/-1 7"), Some(([9, 7, 2], 7)));
+        assert_eq!(read("2//6\n"), Some(([1, NONE, 5], 4)));
+        assert_eq!(read("3"), Some(([2, NONE, NONE], 1)));
+        for text in ["", "0", "11", "1/9", "1/2/3/4", "1/1a", "-", "1\\", "99999999999999999999"] {
+            assert_eq!(read(text), None, "{text}");
+        }
     }
 
     #[test]

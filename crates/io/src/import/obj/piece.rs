@@ -7,7 +7,7 @@ use super::{
 };
 use crate::import::{
     color::linear,
-    text::{Complaint, Part, Words, float},
+    text::{Complaint, Part, Words, float, leading_float},
 };
 use durer_core::math::{Normal3, Point2, Point3};
 
@@ -129,24 +129,24 @@ pub(super) fn read(text: Part<'_>, start: Counts, total: Counts) -> Piece {
 impl Piece {
     fn statement(&mut self, line: Part<'_>, word: Part<'_>, words: Words<'_>, counts: [Counts; 2]) {
         let rest = words.rest().trim().range();
-        let words = match word.bytes {
+        let mut words = match word.bytes {
             b"v" | b"vt" | b"vn" | b"f" => without_comment(words),
             _ => words,
         };
         match word.bytes {
-            b"v" | b"vt" | b"vn" if words.clone().next().is_none() => {
+            b"v" | b"vt" | b"vn" if words.rest().bytes.trim_ascii_start().is_empty() => {
                 self.complaints.push(Complaint::error(line.range(), "expected numbers"));
             }
             b"v" => self.position(line, words),
             b"vt" => {
-                let [u, v, _] = self.numbers::<1>(line, words);
+                let [u, v, _] = self.numbers::<1>(line, &mut words);
                 if !(u.is_finite() && v.is_finite()) {
                     self.tallies.bad_uvs.add(line.range());
                 }
                 self.uvs.push(Point2::new(finite(u), finite(v)));
             }
             b"vn" => {
-                let n = self.numbers::<3>(line, words);
+                let n = self.numbers::<3>(line, &mut words);
                 if !n.iter().all(|c| c.is_finite()) {
                     self.tallies.bad_normals.add(line.range());
                 }
@@ -187,11 +187,11 @@ impl Piece {
     }
 
     /// At least `LEAST` and at most three numbers; 0 for those that are missing.
-    fn numbers<const LEAST: usize>(&mut self, line: Part<'_>, mut words: Words<'_>) -> [f32; 3] {
+    fn numbers<const LEAST: usize>(&mut self, line: Part<'_>, words: &mut Words<'_>) -> [f32; 3] {
         let mut values = [0.0; 3];
         for (i, value) in values.iter_mut().enumerate() {
-            match words.next() {
-                Some(word) => *value = self.number(word),
+            match self.number(words) {
+                Some(number) => *value = number,
                 None if i < LEAST => {
                     let message = format!("expected {LEAST} numbers, found {i}");
                     self.complaints.push(Complaint::error(line.range(), message));
@@ -203,25 +203,33 @@ impl Piece {
         values
     }
 
-    fn number(&mut self, word: Part<'_>) -> f32 {
-        float(word.bytes).unwrap_or_else(|| {
+    /// The next number; 0 after a complaint, `None` if no word is left.
+    #[inline]
+    fn number(&mut self, words: &mut Words<'_>) -> Option<f32> {
+        if let Some(value) = words.leading(leading_float) {
+            return Some(value);
+        }
+        let word = words.next()?;
+        Some(float(word.bytes).unwrap_or_else(|| {
             let message = format!("\"{}\" is not a number", word.shown());
             self.complaints.push(Complaint::error(word.range(), message));
             0.0
-        })
+        }))
     }
 
     /// Three coordinates, perhaps with a weight, or with a colour (red, green, blue) behind them.
     fn position(&mut self, line: Part<'_>, mut words: Words<'_>) {
-        let position = self.numbers::<3>(line, words.clone());
+        let position = self.numbers::<3>(line, &mut words);
         if !position.iter().all(|c| c.is_finite()) {
             self.complaints.push(Complaint::error(line.range(), "a coordinate is nan or infinite"));
         }
-        let more = words.by_ref().skip(3).map(|word| self.number(word)).take(4);
-        let more: [Option<f32>; 4] = {
-            let mut more = more.fuse();
-            std::array::from_fn(|_| more.next())
-        };
+        let mut more = [None; 4];
+        for value in &mut more {
+            *value = self.number(&mut words);
+            if value.is_none() {
+                break;
+            }
+        }
         self.positions.push(Point3::from(position));
         let color = match more {
             [Some(r), Some(g), Some(b), _] => Some([r, g, b].map(|c| linear(finite(c).clamp(0.0, 1.0)))),
@@ -233,12 +241,17 @@ impl Piece {
         }
     }
 
-    fn face(&mut self, line: Part<'_>, words: Words<'_>, [start, total]: [Counts; 2]) {
+    fn face(&mut self, line: Part<'_>, mut words: Words<'_>, [start, total]: [Counts; 2]) {
         let first = self.corners.len();
         let here = Counts([self.positions.len(), self.uvs.len(), self.normals.len()]);
         let so_far = start.plus(&here).0;
         let mut lost = [0; 2];
-        for word in words {
+        loop {
+            if let Some(corner) = words.leading(|text| corner::leading(text, so_far, total.0)) {
+                self.corners.push(corner);
+                continue;
+            }
+            let Some(word) = words.next() else { break };
             match corner::resolve(word, so_far, total.0, &mut lost) {
                 Ok(corner) => self.corners.push(corner),
                 Err(wrong) => {

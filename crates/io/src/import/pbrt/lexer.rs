@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use durer_scene::{SourceId, Span};
 
+use super::bulk::{self, Listed};
+
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TokenKind {
@@ -78,6 +80,12 @@ impl Lexer {
         }
     }
 
+    /// Takes the numbers that stand next, as far as they are plain.
+    pub(super) fn numbers<T: Listed>(&mut self, values: &mut Vec<T>) {
+        let from = self.peeked.take().map_or(self.at, |token| token.start);
+        self.at = from + bulk::numbers(self.text.as_bytes().get(from..).unwrap_or_default(), values);
+    }
+
     /// The characters of a token, quotes included.
     pub(super) fn text(&self, token: Token) -> &str {
         self.text.get(token.start..token.end).unwrap_or("")
@@ -129,7 +137,7 @@ fn skip_comment(bytes: &[u8], at: usize) -> usize {
     rest.iter().position(|b| matches!(b, b'\n' | b'\r')).map_or(bytes.len(), |n| at + n)
 }
 
-fn scan_word(bytes: &[u8], at: usize) -> usize {
+pub(super) fn scan_word(bytes: &[u8], at: usize) -> usize {
     let rest = bytes.get(at..).unwrap_or(&[]);
     let ends = |b: &u8| matches!(b, b' ' | b'\n' | b'\t' | b'\r' | b'"' | b'[' | b']' | b'#');
     rest.iter().position(ends).map_or(bytes.len(), |n| at + n)

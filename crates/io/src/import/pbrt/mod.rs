@@ -1,10 +1,12 @@
 //! The pbrt-v4 scene language (pbrt.org/fileformat-v4), with additions of ours: docs/pbrt-language.md.
 //!
-//! Text flows one way: [`files`] reads it, [`lexer`] cuts it into tokens, [`input`] and [`params`] read arguments,
-//! [`parser`] obeys directives ([`placing`], [`settings`], [`block`], [`nodes`]), [`world`] collects what they leave. Kinds and their
-//! parameters are checked later, against the registry of the model; only `Film` and `Sampler` are checked here.
+//! Text flows one way: [`files`] reads it, [`lexer`] cuts it into tokens, [`input`] and [`params`] read arguments
+//! ([`bulk`] long ones), [`parser`] obeys directives ([`placing`], [`settings`], [`block`], [`nodes`]), [`world`] collects what
+//! they leave. Kinds and their parameters are checked later, against the registry of the model; only `Film` and `Sampler`
+//! are checked here.
 
 mod block;
+mod bulk;
 mod color_space;
 mod cutout;
 mod directive;

@@ -173,6 +173,11 @@ impl Input<'_> {
         let first = self.lexer.peek();
         let mut data = declared.map(|d| (d, empty(d.ty, first)));
         loop {
+            match &mut data {
+                Some((_, Data::Floats(values))) => self.lexer.numbers(values),
+                Some((_, Data::Ints(values))) => self.lexer.numbers(values),
+                _ => {}
+            }
             let token = self.lexer.peek();
             match token.kind {
                 TokenKind::Close => {

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 use super::{Solid, check};
-use crate::import::text::{Complaint, Part, Words, float};
+use crate::import::text::{Complaint, Part, Words, float, leading_float};
 
 /// True if a file that does not have the length of a binary one is text.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
@@ -116,28 +116,35 @@ impl<'t> Reader<'t> {
     }
 
     fn word(&mut self, expected: &str) -> Result<Part<'t>, Complaint> {
-        self.words.next().ok_or_else(|| {
-            let at = self.end.saturating_sub(1)..self.end;
-            let message = match self.last {
-                true => format!("the file ends within a facet: expected {expected}"),
-                false => format!("a facet begins within another: expected {expected}"),
-            };
-            Complaint::error(at, message)
-        })
+        self.words.next().ok_or_else(|| self.short(expected))
+    }
+
+    /// A complaint about an end where something is expected.
+    fn short(&self, expected: &str) -> Complaint {
+        let at = self.end.saturating_sub(1)..self.end;
+        let message = match self.last {
+            true => format!("the file ends within a facet: expected {expected}"),
+            false => format!("a facet begins within another: expected {expected}"),
+        };
+        Complaint::error(at, message)
     }
 
     fn expect(&mut self, wanted: &[&str]) -> Result<(), Complaint> {
         for wanted in wanted {
-            let expected = format!("\"{wanted}\"");
-            let word = self.word(&expected)?;
-            if !word.bytes.eq_ignore_ascii_case(wanted.as_bytes()) {
-                return Err(unexpected(word, &expected));
+            let found = self.words.next();
+            if found.is_some_and(|word| word.bytes.eq_ignore_ascii_case(wanted.as_bytes())) {
+                continue;
             }
+            let expected = format!("\"{wanted}\"");
+            return Err(found.map_or_else(|| self.short(&expected), |word| unexpected(word, &expected)));
         }
         Ok(())
     }
 
     fn number(&mut self) -> Result<f32, Complaint> {
+        if let Some(value) = self.words.leading(leading_float) {
+            return Ok(value);
+        }
         let word = self.word("a number")?;
         float(word.bytes).ok_or_else(|| unexpected(word, "a number"))
     }

@@ -6,8 +6,8 @@ mod lines;
 mod number;
 
 pub(crate) use complaint::{Complaint, Tally, grouped, tell};
-pub(crate) use lines::{Part, Words, is_continued};
-pub(crate) use number::{float, integer, leading_float, leading_integer};
+pub(crate) use lines::{PIECE, Part, Words, is_continued};
+pub(crate) use number::{ends, float, integer, leading_float, leading_integer, short_integer};
 
 /// The text with LF for CR if lines end in CR alone, as on old Macintosh computers; places stay the same.
 pub(crate) fn with_line_feeds(mut text: Vec<u8>) -> Vec<u8> {

@@ -28,15 +28,24 @@ pub(crate) fn leading_float(text: &[u8]) -> Option<(f32, usize)> {
 /// The same for whole numbers.
 #[inline]
 pub(crate) fn leading_integer(text: &[u8]) -> Option<(i64, usize)> {
+    let (value, rest) = short_integer(text)?;
+    ends(rest).then_some((value, text.len() - rest.len()))
+}
+
+/// The whole number of up to 18 digits that `text` begins with, and what follows it.
+#[inline]
+pub(crate) fn short_integer(text: &[u8]) -> Option<(i64, &[u8])> {
     let (negative, digits) = sign(text);
     let (value, count, rest) = digits_of(digits, 0);
     let value = value as i64;
     // What wraps has too many digits.
     let value = if negative { value.wrapping_neg() } else { value };
-    (ends(rest) && (1..=18).contains(&count)).then_some((value, text.len() - rest.len()))
+    (1..=18).contains(&count).then_some((value, rest))
 }
 
-fn ends(rest: &[u8]) -> bool {
+/// Whether a number may end before `rest`.
+#[inline]
+pub(crate) fn ends(rest: &[u8]) -> bool {
     matches!(rest, [] | [b' ' | b'\n' | b'\r' | b'\t', ..])
 }
 

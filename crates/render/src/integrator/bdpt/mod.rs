@@ -159,8 +159,8 @@ impl Transport for Bidirectional {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let (Start::Eye(ray) | Start::Again(&TreeNode { path: ray, .. })) = start;
-        let ray = PathRay { media: cx.scene.start, ..ray };
+        let (Start::Eye(ray) | Start::Again(TreeNode { path: ray, .. })) = start;
+        let ray = PathRay { media: cx.scene.start, ..*ray };
         let mut walk = Walk::new(&self.rules, cx, probe);
         let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
         let id = walk.probe.ray(parent, &ray, RayKind::Eye);

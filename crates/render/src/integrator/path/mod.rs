@@ -137,7 +137,7 @@ impl Transport for Path {
     ) {
         let follow = Follow::new(&self.course, cx, probe);
         match start {
-            Start::Eye(ray) => follow.sample(&ray, parent, out),
+            Start::Eye(ray) => follow.sample(ray, parent, out),
             Start::Again(node) => follow.again(node, parent, out),
         }
     }

@@ -115,7 +115,7 @@ impl Transport for Sppm {
         let of_path = Follow::new(&self.course, cx, probe);
         let follow = Follow { photons: self.photons.as_deref(), walks: false, ..of_path };
         match start {
-            Start::Eye(ray) => follow.sample(&ray, parent, out),
+            Start::Eye(ray) => follow.sample(ray, parent, out),
             Start::Again(node) => follow.again(node, parent, out),
         }
     }

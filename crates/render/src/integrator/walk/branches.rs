@@ -17,6 +17,11 @@ impl<P: Probe> Walk<'_, P> {
         crossing: &Crossing,
         (id, mut radiance): (P::Id, Spectrum),
     ) -> Spectrum {
+        // PERF: most surfaces are matte (bench render).
+        if !s.bsdf.is_followed() {
+            self.end(s, id);
+            return radiance;
+        }
         let (branches, follows) = match self.rules.gloss_rays {
             None => (s.bsdf.branches(s.wo_local), false),
             Some(_) => (s.bsdf.sharp(s.wo_local), s.bsdf.spreads()),
@@ -40,10 +45,15 @@ impl<P: Probe> Walk<'_, P> {
             self.probe.stop(refused, StopReason::TirNoRefraction, child.throughput);
             self.probe.result(refused, Spectrum::BLACK);
         } else if count == 0 && !follows {
-            let absorbs = P::ACTIVE && s.bsdf.is_black();
-            let reason = if absorbs { StopReason::Absorbed } else { StopReason::OpaqueNoChildren };
-            self.probe.stop(id, reason, Spectrum::BLACK);
+            self.end(s, id);
         }
         radiance
+    }
+
+    /// No ray follows.
+    fn end(&mut self, s: &Shading, id: P::Id) {
+        let absorbs = P::ACTIVE && s.bsdf.is_black();
+        let reason = if absorbs { StopReason::Absorbed } else { StopReason::OpaqueNoChildren };
+        self.probe.stop(id, reason, Spectrum::BLACK);
     }
 }

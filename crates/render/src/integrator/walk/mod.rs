@@ -56,7 +56,7 @@ impl<'a, P: Probe> Walk<'a, P> {
     pub(super) fn start(mut self, start: Start<'_>, parent: P::Id, out: &mut Contribution) {
         let radiance = match start {
             Start::Eye(ray) => {
-                let ray = PathRay { media: self.cx.scene.start, ..ray };
+                let ray = PathRay { media: self.cx.scene.start, ..*ray };
                 self.trace(&ray, RayKind::Eye, parent)
             }
             Start::Again(node) => match &node.light {
@@ -160,8 +160,8 @@ impl<'a, P: Probe> Walk<'a, P> {
         let radiance = self.lights(ray, &s, &crossing, (id, radiance));
         let radiance = self.branches(ray, &s, &crossing, (id, radiance));
         match self.rules.gloss_rays {
-            Some(rays) => self.gloss(ray, &s, &crossing, rays.get(), (id, radiance)),
-            None => radiance,
+            Some(rays) if s.bsdf.spreads() => self.gloss(ray, &s, &crossing, rays.get(), (id, radiance)),
+            _ => radiance,
         }
     }
 }

@@ -1,0 +1,68 @@
+//! KTX 2 files whose pixels Basis Universal packed for graphics cards: what glTF's KHR_texture_basisu brings.
+use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
+use durer_scene::{AssetError, Image, ImageData};
+
+use super::source::Source;
+
+const KTX: &str = "KTX 2 file";
+/// The fixed part of a header.
+const HEADER: usize = 80;
+/// Bytes by which a header tells of a level.
+const LEVEL: usize = 24;
+/// Pixels along an edge of a block, and the most bytes of one.
+const BLOCK_EDGE: u32 = 4;
+const BLOCK_BYTES: u64 = 16;
+/// Plain areas pack to next to nothing; real pictures do not.
+const BEST_RATIO: u64 = 1 << 14;
+
+/// Reads the largest picture of a file.
+pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
+    if source.bytes.len() < HEADER {
+        return Err(source.cut(KTX, "its header"));
+    }
+    let number = |offset: usize| source.i32_at(offset) as u32;
+    let [format, width, height, depth, layers, faces] = [12, 20, 24, 28, 32, 36].map(number);
+    source.check_size(width.into(), height.into(), 4, BEST_RATIO)?;
+    let refused = |what: &str| {
+        Err(source.unsupported(format!("a {KTX} {what}, which durer does not read; export it as PNG or EXR")))
+    };
+    if depth > 1 || layers > 1 || faces != 1 {
+        return refused("of more than one picture");
+    }
+    if format != 0 {
+        return refused("that is not packed by Basis Universal");
+    }
+    let damaged = || source.damaged(KTX, "its pixel data cannot be decoded");
+    if !has_sound_levels(source, [width, height], number(40)) {
+        return Err(damaged());
+    }
+    let packed = Transcoder::new(source.bytes).map_err(|_| damaged())?;
+    match packed.source_format() {
+        SourceFormat::Etc1s | SourceFormat::UastcLdr if !packed.is_video() => {}
+        _ => return refused("of a rare kind"),
+    }
+    if packed.base_dimensions() != (width, height) {
+        return Err(damaged());
+    }
+    let rgba = packed.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(|_| damaged())?;
+    let (pixels, _) = rgba.as_chunks::<4>();
+    let (channels, bytes) = match packed.has_alpha() {
+        true => (4, rgba),
+        false => (3, pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()),
+    };
+    Ok(Image { width, height, channels, data: ImageData::U8(bytes) })
+}
+
+/// Whether no level of a picture promises more than its blocks take: the decoder allocates that on its word.
+fn has_sound_levels(source: &Source<'_>, size: [u32; 2], levels: u32) -> bool {
+    let number = |offset: usize| {
+        let bytes = source.bytes.get(offset..).and_then(<[u8]>::first_chunk);
+        bytes.map(|b| u64::from_le_bytes(*b))
+    };
+    let is_sound = |level: u32| {
+        let blocks = size.map(|edge| u64::from((edge >> level).max(1).div_ceil(BLOCK_EDGE)));
+        let unpacked = number(HEADER + LEVEL * level as usize + 16);
+        unpacked.is_some_and(|bytes| bytes <= blocks[0] * blocks[1] * BLOCK_BYTES)
+    };
+    levels <= 32 && (0..levels.max(1)).all(is_sound)
+}

@@ -1,0 +1,4 @@
+//! JPEG pictures.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| durer_fuzz::picture("fuzzed.jpg", data));

@@ -1,0 +1,4 @@
+//! Pictures that Basis Universal packed.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| durer_fuzz::picture("fuzzed.ktx2", data));

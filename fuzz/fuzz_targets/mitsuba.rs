@@ -1,0 +1,4 @@
+//! Mitsuba scenes. A file that includes itself is called `fuzzed.xml`; `a.ply` and `a.pfm` lie beside it.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| durer_fuzz::scene("fuzzed.xml", data));
