@@ -197,7 +197,7 @@ fn picture(prepared: &Prepared, samples: u32, seed: u64, source: impl Fn([u32; 2
         let ray = prepared.scene.view.ray(film, Point2::new(0.5, 0.5), 0.0);
         let one = |sample| {
             let sampler = Sampler::new(SamplerKind::Sobol, seed, source(pixel), sample, samples);
-            prepared.integrator.sample(&cx, PathRay::eye(ray, sampler), &mut out);
+            prepared.integrator.sample(&cx, &PathRay::eye(ray, sampler), &mut out);
             match out.value {
                 Value::Radiance(radiance) => f64::from(Basis::Rgb.to_rgb(radiance)[1]),
                 Value::Data(_) => f64::NAN,

@@ -206,7 +206,7 @@ fn every_ray_ends_or_goes_on() {
         let cx = durer::SampleCx { scene: &prepared.scene, basis: Default::default() };
         prepared.integrator.sample(
             &cx,
-            durer::PathRay { media: Default::default(), ..tree.nodes[0].path },
+            &durer::PathRay { media: Default::default(), ..tree.nodes[0].path },
             &mut out,
         );
         assert_eq!(out.rays, tree.nodes.iter().filter(|n| n.is_traced()).count() as u64);

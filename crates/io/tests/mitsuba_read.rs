@@ -240,6 +240,102 @@ fn plastic_reflects_what_makes_our_formula_mitsubas() {
     assert_eq!((zero, one), (0.0, 1.0));
 }
 
+/// Text of a parameter of the last material that is no `sides`.
+fn word(imported: &Imported, name: &str) -> Vec<String> {
+    let of = imported.desc.materials.iter().rev().find(|m| m.node.kind != "sides").expect("a material");
+    match of.node.params.get(name).map(|p| &p.data) {
+        Some(Data::Strings(v)) => v.clone(),
+        other => panic!("{name}: {other:?} of {:?}", of.node),
+    }
+}
+
+#[test]
+fn facets_are_beckmanns_unless_the_scene_says_otherwise() {
+    for plugin in ["roughconductor", "roughdielectric", "roughplastic"] {
+        let of = |more: &str| {
+            let read =
+                scene(&format!("<bsdf type=\"{plugin}\"><float name=\"alpha\" value=\"0.3\"/>{more}</bsdf>"));
+            assert_eq!(told(&read, Severity::Warning), Vec::<String>::new(), "{plugin}");
+            assert_eq!(material(&read, "roughness"), [0.3]);
+            word(&read, "distribution")
+        };
+        assert_eq!(of(""), ["beckmann"]);
+        assert_eq!(of("<string name=\"distribution\" value=\"beckmann\"/>"), ["beckmann"]);
+        assert_eq!(of("<string name=\"distribution\" value=\"ggx\"/>"), ["ggx"]);
+    }
+    assert!(
+        errors("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"gxx\"/></bsdf>")[0]
+            .contains("gxx")
+    );
+}
+
+#[test]
+fn disneys_materials_keep_all_that_they_say() {
+    let float = |name: &str, value: f32| format!("<float name=\"{name}\" value=\"{value}\"/>");
+    let names = [
+        ("roughness", "roughness"),
+        ("anisotropic", "anisotropic"),
+        ("spec_trans", "spectrans"),
+        ("spec_tint", "speculartint"),
+        ("sheen", "sheen"),
+        ("sheen_tint", "sheentint"),
+        ("flatness", "flatness"),
+    ];
+    let solid = [("metallic", "metallic"), ("clearcoat", "clearcoat"), ("clearcoat_gloss", "clearcoatgloss")];
+    let check = |plugin: &str, own: &[(&str, &str)]| {
+        let all: Vec<_> =
+            names.iter().chain(own).enumerate().map(|(i, n)| (n, 0.05 + 0.1 * i as f32)).collect();
+        let text: String = all.iter().map(|((theirs, _), v)| float(theirs, *v)).collect();
+        let read = scene(&format!("<bsdf type=\"{plugin}\">{text}</bsdf>"));
+        assert_eq!(told(&read, Severity::Warning), Vec::<String>::new(), "{plugin}");
+        for ((_, ours), v) in all {
+            assert_eq!(material(&read, ours), [v], "{ours}");
+        }
+        material(&read, "eta")[0]
+    };
+    // Half of the 8 % that a specular of 1 reflects at normal incidence.
+    let eta = check("principled", &solid);
+    assert!((((eta - 1.0) / (eta + 1.0)).powi(2) - 0.04).abs() < 1e-6, "{eta}");
+    assert_eq!(check("principledthin", &[("diff_trans", "difftrans")]), 1.5);
+    let of = |more: &str| material(&scene(&format!("<bsdf type=\"principled\">{more}</bsdf>")), "eta")[0];
+    assert_eq!(of(&float("eta", 1.3)), 1.3);
+    assert_eq!(of(&(float("eta", 1.0) + &float("spec_trans", 0.5))), 1.001);
+    let both = format!("<bsdf type=\"principled\">{}{}</bsdf>", float("eta", 1.3), float("specular", 0.5));
+    assert!(errors(&both)[0].contains("only one"));
+}
+
+#[test]
+fn factors_on_what_is_mirrored_and_let_through_are_kept() {
+    let color = |name: &str, v: f32| format!("<rgb name=\"{name}\" value=\"{v}, 0.5, 1\"/>");
+    for plugin in ["dielectric", "roughdielectric"] {
+        let (r, t) = (color("specular_reflectance", 0.1), color("specular_transmittance", 0.2));
+        let read = scene(&format!("<bsdf type=\"{plugin}\">{r}{t}</bsdf>"));
+        assert_eq!(told(&read, Severity::Warning), Vec::<String>::new());
+        assert_eq!(material(&read, "reflection"), [0.1, 0.5, 1.0]);
+        assert_eq!(material(&read, "transmission"), [0.2, 0.5, 1.0]);
+    }
+    let read = scene(&format!("<bsdf type=\"conductor\">{}</bsdf>", color("specular_reflectance", 0.1)));
+    assert_eq!(material(&read, "reflection"), [0.1, 0.5, 1.0]);
+}
+
+#[test]
+fn checkerboards_of_numbers_begin_with_the_second_one() {
+    let of = |name: &str, value: durer_scene::TextureValue| {
+        let board = "<float name=\"color0\" value=\"0.1\"/><float name=\"color1\" value=\"0.7\"/>";
+        let read = scene(&format!(
+            "<bsdf type=\"roughdielectric\"><texture type=\"checkerboard\" name=\"alpha\">{board}</texture></bsdf>\
+             <bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\">{board}</texture></bsdf>"
+        ));
+        let texture = read.desc.textures.iter().find(|t| t.value == value).expect("a texture");
+        match &texture.node.params.get(name).expect("given").data {
+            Data::Floats(v) => v[0],
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(of("tex1", durer_scene::TextureValue::Color), 0.1);
+    assert_eq!(of("tex1", durer_scene::TextureValue::Float), 0.7);
+}
+
 #[test]
 fn small_limits_are_kept() {
     let limits = Limits { file_bytes: 20, ..Limits::default() };

@@ -7,7 +7,8 @@ use durer_model::bsdf::{
     Blur, Blurred, BranchKind, Bsdf, Drawn, Facets, Gloss, Glossy, Interface, Lobe, Reflectance, Seen, Split,
 };
 use durer_testkit::{
-    DVec3, chi_square::Histogram, gloss_table::GlossTable, microfacet::Ggx, quadrature, random::Random,
+    DVec3, chi_square::Histogram, gloss_table::GlossTable, microfacet::Facets as Exact, quadrature,
+    random::Random,
 };
 
 fn glossy(f0: f32, alpha: f32) -> Lobe {
@@ -251,7 +252,7 @@ fn what_lights_and_drawn_rays_find_adds_up_to_the_whole() {
     let axis = DVec3::new(-0.45, 0.1, 0.9).normalize();
     let (cap, solid_angle) = (0.92f64, std::f64::consts::TAU * 0.08);
     let pdf = (1.0 / solid_angle) as f32;
-    let exact = Ggx { alpha: 0.25 }.integrate(wo.to_f64(), 1500, |wi, _| {
+    let exact = Exact::ggx(0.25).integrate(wo.to_f64(), 1500, |wi, _| {
         if wi.dot(axis) > cap { f64::from(lobe.eval(wo, v(wi)).mean()) * wi.z } else { 0.0 }
     });
     let mut random = Random::new(8);

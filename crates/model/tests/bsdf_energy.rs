@@ -1,19 +1,39 @@
 //! T3 for lobes: reciprocity, white furnaces, the split-sum table.
 use durer_core::{math::Vector3, spectrum::Spectrum};
-use durer_model::bsdf::{BranchKind, Bsdf, Facets, Glossy, Highlight, Lobe, Reflectance};
-use durer_testkit::{DVec3, microfacet::Ggx, quadrature::cosine_hemisphere, random::Random};
+use durer_model::bsdf::{BranchKind, Bsdf, Distribution, Facets, Glossy, Highlight, Lobe, Reflectance};
+use durer_testkit::{
+    DVec3,
+    microfacet::{Facets as Exact, Like},
+    quadrature::cosine_hemisphere,
+    random::Random,
+};
 
 fn glossy(f0: f32, alpha: f32) -> Glossy {
     let reflectance = Reflectance::Schlick { f0: Spectrum::splat(f0), f90: Spectrum::ONE };
     Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 }
 }
 
+/// The same with the facets of the oracle.
+fn like(f0: f32, exact: Exact) -> Glossy {
+    let facets = Facets::round(exact.alpha as f32);
+    let distribution = match exact.like {
+        Like::Ggx => Distribution::Ggx,
+        Like::Beckmann => Distribution::Beckmann,
+    };
+    Glossy { facets: facets.distributed(distribution), ..glossy(f0, exact.alpha as f32) }
+}
+
+/// Facets of these widths, of both distributions.
+fn both(alphas: &[f64]) -> Vec<Exact> {
+    alphas.iter().flat_map(|alpha| [Exact::ggx(*alpha), Exact::beckmann(*alpha)]).collect()
+}
+
 /// Every lobe that reflects lights and obeys physics. `Highlight` is left out: the classic formula is neither reciprocal
 /// nor energy conserving (2026-11-22).
 fn physical_lobes() -> Vec<Lobe> {
     let mut lobes = vec![Lobe::Diffuse { albedo: Spectrum::ONE }];
-    for alpha in [0.001, 0.01, 0.1, 0.25, 0.5, 1.0] {
-        lobes.extend([0.0, 0.04, 1.0].map(|f0| Lobe::Glossy(glossy(f0, alpha))));
+    for exact in both(&[0.001, 0.01, 0.1, 0.25, 0.5, 1.0]) {
+        lobes.extend([0.0, 0.04, 1.0].map(|f0| Lobe::Glossy(like(f0, exact))));
     }
     lobes
 }
@@ -67,8 +87,8 @@ fn no_direction_gives_nan_or_infinity() {
 }
 
 /// `integral f cos` of the lobe under test, with points where the double-precision lobe has its mass.
-fn furnace(lobe: &Lobe, alpha: f64, wo: DVec3, n: usize) -> f64 {
-    Ggx { alpha }.integrate(wo, n, |wi, _| f64::from(lobe.eval(v(wo), v(wi)).mean()) * wi.z)
+fn furnace(lobe: &Lobe, facets: Exact, wo: DVec3, n: usize) -> f64 {
+    facets.integrate(wo, n, |wi, _| f64::from(lobe.eval(v(wo), v(wi)).mean()) * wi.z)
 }
 
 #[test]
@@ -90,18 +110,29 @@ fn the_white_furnace_of_glossy_lobes_matches_closed_forms() {
         (0.5, 1.0, 0.450694),
     ];
     for (cos, alpha, expected) in table {
-        let sum = furnace(&Lobe::Glossy(glossy(1.0, alpha as f32)), alpha, seen_under(cos), 500);
+        let sum = furnace(&Lobe::Glossy(glossy(1.0, alpha as f32)), Exact::ggx(alpha), seen_under(cos), 500);
         assert!((sum - expected).abs() < 1e-3, "cos {cos} alpha {alpha}: {sum}");
     }
 }
 
 #[test]
+fn the_white_furnace_of_both_distributions_is_the_oracles() {
+    for exact in both(&[0.1, 0.3, 0.6, 1.0]) {
+        for cos in [0.15, 0.4, 0.8, 1.0] {
+            let sum = furnace(&Lobe::Glossy(like(1.0, exact)), exact, seen_under(cos), 200);
+            let (a, b) = exact.albedo(cos, 200);
+            assert!((sum - a - b).abs() < 1e-4, "{exact:?} {cos}: {sum} {}", a + b);
+        }
+    }
+}
+
+#[test]
 fn no_lobe_reflects_more_than_arrives() {
-    for alpha in [0.001, 0.02, 0.1, 0.3, 0.6, 1.0] {
+    for exact in both(&[0.001, 0.02, 0.1, 0.3, 0.6, 1.0]) {
         for cos in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {
             for f0 in [0.0, 0.04, 1.0] {
-                let sum = furnace(&Lobe::Glossy(glossy(f0, alpha as f32)), alpha, seen_under(cos), 100);
-                assert!(sum <= 1.0 + 1e-3, "alpha {alpha} cos {cos} f0 {f0}: {sum}");
+                let sum = furnace(&Lobe::Glossy(like(f0, exact)), exact, seen_under(cos), 100);
+                assert!(sum <= 1.0 + 1e-3, "{exact:?} cos {cos} f0 {f0}: {sum}");
             }
         }
     }
@@ -109,13 +140,13 @@ fn no_lobe_reflects_more_than_arrives() {
 
 #[test]
 fn the_split_sum_is_near_the_integral() {
-    for alpha in [0.004, 0.03, 0.1, 0.22, 0.35, 0.6, 0.9] {
+    for exact in both(&[0.004, 0.03, 0.1, 0.22, 0.35, 0.6, 0.9]) {
         for cos in [0.02, 0.07, 0.15, 0.33, 0.5, 0.8, 0.97] {
-            let (a, b) = Ggx { alpha }.albedo(cos, 400);
+            let (a, b) = exact.albedo(cos, 400);
             for f0 in [0.0, 0.04, 0.5, 1.0] {
-                let got = glossy(f0, alpha as f32).directional_albedo(v(seen_under(cos))).mean();
+                let got = like(f0, exact).directional_albedo(v(seen_under(cos))).mean();
                 let expected = f64::from(f0) * a + b;
-                assert!((f64::from(got) - expected).abs() < 0.015, "{alpha} {cos} {f0}: {got} {expected}");
+                assert!((f64::from(got) - expected).abs() < 0.015, "{exact:?} {cos} {f0}: {got} {expected}");
                 assert!(got <= 1.0);
             }
         }
@@ -140,7 +171,7 @@ fn branch_and_view_of_a_glossy_lobe_weigh_its_directional_albedo() {
 
 const SIZE: usize = 16;
 
-fn table_node(row: usize, column: usize, n: usize) -> [f64; 2] {
+fn table_node(of: fn(f64) -> Exact, row: usize, column: usize, n: usize) -> [f64; 2] {
     let square = |i: usize| (i as f64 / (SIZE - 1) as f64).powi(2);
     // At cosine 0 itself the integrand is 0/0.
     let (alpha, cos) = (square(row), square(column).max(1e-4));
@@ -148,17 +179,18 @@ fn table_node(row: usize, column: usize, n: usize) -> [f64; 2] {
         let fc = (1.0 - square(column)).powi(5);
         return [1.0 - fc, fc];
     }
-    let (a, b) = Ggx { alpha }.albedo(cos, n);
+    let (a, b) = of(alpha).albedo(cos, n);
     [a, b]
 }
 
 #[test]
 fn albedo_table_is_the_integral() {
-    for row in 0..SIZE {
+    for (row, of) in (0..SIZE).flat_map(|row| [(row, Exact::ggx as fn(f64) -> Exact), (row, Exact::beckmann)])
+    {
         for column in (0..SIZE).step_by(3) {
-            let ([a, b], at) = (table_node(row, column, 400), |i: usize| (i as f64 / 15.0).powi(2));
+            let ([a, b], at) = (table_node(of, row, column, 400), |i: usize| (i as f64 / 15.0).powi(2));
             let wo = v(seen_under(at(column)));
-            let got = |f0: f32| f64::from(glossy(f0, at(row) as f32).directional_albedo(wo).mean());
+            let got = |f0: f32| f64::from(like(f0, of(at(row))).directional_albedo(wo).mean());
             // At grazing incidence the quadrature itself converges slowly.
             let tolerance = if column == 0 { 0.02 } else { 5e-3 };
             assert!((got(0.0) - b).abs() < tolerance, "B at {row} {column}: {} {b}", got(0.0));
@@ -170,10 +202,20 @@ fn albedo_table_is_the_integral() {
 #[test]
 #[ignore = "prints the body of albedo_table.rs"]
 fn print_albedo_table() {
+    print_table(Exact::ggx);
+}
+
+#[test]
+#[ignore = "prints the body of beckmann_table.rs"]
+fn print_beckmann_table() {
+    print_table(Exact::beckmann);
+}
+
+fn print_table(of: fn(f64) -> Exact) {
     for row in 0..SIZE {
         println!("    [");
         for columns in [0..6, 6..11, 11..16] {
-            let pairs: Vec<_> = columns.map(|c| table_node(row, c, 1000)).collect();
+            let pairs: Vec<_> = columns.map(|c| table_node(of, row, c, 1000)).collect();
             let line: Vec<_> =
                 pairs.iter().map(|[a, b]| format!("[{:.4}, {:.4}]", a.min(1.0 - b), b)).collect();
             println!("        {},", line.join(", "));

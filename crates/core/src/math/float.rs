@@ -45,6 +45,11 @@ pub fn ln(x: f32) -> f32 {
 pub fn pow(x: f32, y: f32) -> f32 {
     libm::powf(x, y)
 }
+/// The complementary error function: the share `2 / sqrt(pi)` of the integral of `exp(-t²)` from `x` on.
+#[inline]
+pub fn erfc(x: f32) -> f32 {
+    libm::erfcf(x)
+}
 /// `x` squared.
 #[inline]
 pub fn sqr(x: f32) -> f32 {

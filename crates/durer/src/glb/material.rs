@@ -3,7 +3,7 @@ use std::{collections::HashMap, sync::Arc};
 
 use durer_core::spectrum::abbe_number;
 use durer_model::{Medium, light::AREA_LIGHTS, material::MATERIALS};
-use durer_scene::{Args, Data, Diagnostics, Node, ShapeDesc, TextureValue, ValueType, find};
+use durer_scene::{Args, Data, Diagnostics, Node, Param, Params, ShapeDesc, TextureValue, ValueType, find};
 use serde_json::{Map, Value, json};
 
 use super::{Writer, texture::Mapped};
@@ -136,6 +136,12 @@ impl Writer<'_> {
                 made.matte([1.0; 3]);
                 self.color_to(&mut made.pbr, "baseColor", &mut args, node, ("diffuse", owner));
             }
+            "disney" => {
+                self.warn(format!(
+                    "{owner}: Disney's formulas become glTF's, without tints, sheen and flatness"
+                ));
+                self.node_material(made, &disney_as_principled(node), owner);
+            }
             "classic" => self.classic(made, &mut args, node, owner),
             other => {
                 self.warn(format!("{owner}: \"{other}\" becomes grey, as glTF has none such"));
@@ -178,6 +184,9 @@ impl Writer<'_> {
         let is_textured = args.is_set("uroughness") || args.is_set("vroughness");
         if is_textured {
             self.warn(format!("{owner}: roughness that differs along u and v becomes its mean"));
+        }
+        if args.text("distribution") == "beckmann" {
+            self.warn(format!("{owner}: Beckmann's distribution of microfacets becomes GGX"));
         }
         let mean = 0.5 * (of("uroughness") + of("vroughness"));
         let width = if args.bool("remaproughness") { mean.max(0.0).sqrt() } else { mean };
@@ -324,4 +333,30 @@ impl Made {
         let own = self.extensions.entry(extension.to_owned()).or_insert_with(|| json!({}));
         own[key] = value;
     }
+}
+
+/// What glTF's material has of Disney's.
+fn disney_as_principled(node: &Node) -> Node {
+    const SAME: [(&str, &str); 7] = [
+        ("color", "basecolor"),
+        ("roughness", "roughness"),
+        ("metallic", "metallic"),
+        ("anisotropic", "anisotropy"),
+        ("spectrans", "transmission"),
+        ("clearcoat", "clearcoat"),
+        ("eta", "eta"),
+    ];
+    let color = Params::new().rgb("basecolor", [0.5; 3]);
+    let color = if node.params.get("color").is_some() { Params::new() } else { color };
+    let params = SAME.iter().filter_map(|(theirs, ours)| Some((node.params.get(theirs)?, ours))).fold(
+        color,
+        |mut params, (param, ours)| {
+            params.push(Param { name: (*ours).to_owned(), ..param.clone() });
+            params
+        },
+    );
+    let thin = node.params.get("thin").is_some_and(|p| p.data == Data::Bools(vec![true]));
+    let is_body = !thin && node.params.get("spectrans").is_some();
+    let params = if is_body { params.float("thickness", 1.0) } else { params };
+    Node { kind: "principled".to_owned(), params, ..node.clone() }
 }

@@ -310,3 +310,30 @@ fn shapes_with_holes_have_a_mask_around_their_material() {
         ShapeSource::Mesh(_) => false,
     }));
 }
+
+#[test]
+fn integrators_with_the_same_picture_stand_for_those_of_pbrt() {
+    for (theirs, ours, told) in [
+        ("simplepath", "path", "1:12 note: "),
+        ("randomwalk", "path", "1:12 warning: "),
+        ("simplevolpath", "volpath", "1:12 warning: "),
+        ("mlt", "bdpt", "1:12 warning: "),
+    ] {
+        // pbrt's default and another depth.
+        for (more, depth) in [("", 5), (" \"integer maxdepth\" 7", 7)] {
+            let imported = read(&format!("Integrator \"{theirs}\"{more}\nWorldBegin"));
+            let node = imported.desc.integrator.as_ref().expect("an integrator");
+            assert_eq!(node.kind, ours);
+            assert_eq!(node.params.get("maxdepth").map(|p| &p.data), Some(&Data::Ints(vec![depth])));
+            let all = complaints(&imported);
+            let said = format!("integrator \"{theirs}\" is drawn by \"{ours}\"");
+            assert!(all[0].starts_with(told) && all[0].contains(&said), "{all:?}");
+        }
+    }
+    let own = read("Integrator \"mlt\" \"integer chains\" 8 \"bool regularize\" true\nWorldBegin");
+    let node = own.desc.integrator.as_ref().expect("an integrator");
+    assert!(node.params.get("chains").is_none());
+    assert_eq!(node.params.get("regularize").map(|p| &p.data), Some(&Data::Bools(vec![true])));
+    let wrong = complaints(&read("Integrator \"mlt\" \"integer chain\" 8\nWorldBegin"));
+    assert!(wrong.iter().any(|c| c.contains("\"chain\"") && c.contains("chains")), "{wrong:?}");
+}

@@ -31,7 +31,7 @@ pub enum Blur {
         /// `n` about the refracted direction.
         transmission: f32,
     },
-    /// By GGX microfacets.
+    /// By microfacets.
     Microfacet(Facets),
 }
 

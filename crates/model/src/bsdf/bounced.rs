@@ -18,7 +18,7 @@ use durer_core::{
 };
 
 use super::{
-    Facets, Reflectance,
+    Distribution, Facets, Reflectance,
     glossy::single_scattered,
     sheen_table::{SIZE, TABLE},
 };
@@ -79,6 +79,7 @@ impl Sheen {
 pub struct Bounced {
     color: Spectrum,
     alpha: f32,
+    like: Distribution,
     /// `1 - <E>`.
     lost: f32,
 }
@@ -89,21 +90,24 @@ impl Bounced {
         if facets.is_smooth() {
             return None;
         }
-        let alpha = facets.alpha();
+        let (alpha, like) = (facets.alpha(), facets.distribution());
         // 2 integral of f(cos) cos dcos.
         let cos = |i: usize| ((i as f32 + 0.5) / STEPS as f32).sqrt();
-        let mean = (0..STEPS).map(|i| single_scattered(cos(i), alpha)).sum::<f32>() / STEPS as f32;
+        let mean = (0..STEPS).map(|i| single_scattered(cos(i), alpha, like)).sum::<f32>() / STEPS as f32;
         let fresnel = (0..STEPS).fold(Spectrum::BLACK, |sum, i| sum + reflectance.at(cos(i))) / STEPS as f32;
         let lost = (1.0 - mean).max(1e-6);
         let color = fresnel.map(|f| sqr(f) * mean / (1.0 - f * lost).max(1e-6));
-        Some(Self { color, alpha, lost })
+        Some(Self { color, alpha, like, lost })
     }
     pub(super) fn eval(&self, o: Vector3, i: Vector3) -> Spectrum {
-        let lost = |w: Vector3| (1.0 - single_scattered(w.z.abs().min(1.0), self.alpha)).max(0.0);
-        self.color * (FRAC_1_PI * lost(o) * lost(i) / self.lost)
+        self.color * (FRAC_1_PI * self.lost_towards(o) * self.lost_towards(i) / self.lost)
     }
     pub(super) fn directional_albedo(&self, wo: Vector3) -> Spectrum {
-        self.color * (1.0 - single_scattered(wo.z.abs().min(1.0), self.alpha)).max(0.0)
+        self.color * self.lost_towards(wo)
+    }
+    /// `1 - E`.
+    fn lost_towards(&self, w: Vector3) -> f32 {
+        (1.0 - single_scattered(w.z.abs().min(1.0), self.alpha, self.like)).max(0.0)
     }
     pub(super) fn albedo(&self) -> Spectrum {
         self.color * self.lost

@@ -16,7 +16,7 @@ use durer_core::{
     spectrum::{Curve, Spectrum},
 };
 
-use super::{Facets, SMOOTH, fresnel_dielectric, refract};
+use super::{Distribution, Facets, SMOOTH, fresnel_dielectric, refract};
 
 /// Nodes of `t` over the square root of the cosine.
 const NODES: usize = 16;
@@ -139,9 +139,9 @@ pub struct Coat {
 
 impl Coat {
     /// Of an index relative to the outside, or all indices of a curve, and a thickness in units of the mean free path of what
-    /// absorbs below the coat. `alpha` is the width of its facets if that is the same everywhere. Widths that differ along and
+    /// absorbs below the coat. `alpha` is the width of its facets, if that is the same everywhere, and how they are distributed. Widths that differ along and
     /// across are taken to be their mean: it blurs `t` a little.
-    pub fn new(eta: (f32, Option<&Curve>), thickness: f32, alpha: Option<f32>) -> Self {
+    pub fn new(eta: (f32, Option<&Curve>), thickness: f32, alpha: (Option<f32>, Distribution)) -> Self {
         let ends = eta.1.map_or([eta.0; 2], Curve::ends);
         let [low, high] = ends;
         let steps = ((high - low) / STEP).ceil().min(MOST_STEPS);
@@ -175,8 +175,8 @@ fn between<T>(all: &[T], x: f32, of: impl Fn(&T) -> Row, mix: impl Fn(&Row, &Row
 }
 
 impl Widths {
-    fn new(eta: f32, thickness: f32, alpha: Option<f32>) -> Self {
-        let row = |alpha: f32| Row::new(eta, thickness, alpha);
+    fn new(eta: f32, thickness: f32, (alpha, like): (Option<f32>, Distribution)) -> Self {
+        let row = |alpha: f32| Row::new(eta, thickness, &Facets::round(alpha).distributed(like));
         let rough = match alpha {
             Some(alpha) if alpha < SMOOTH => Vec::new(),
             Some(alpha) => vec![row(alpha)],
@@ -199,11 +199,10 @@ fn powi(x: f32, n: u32) -> f32 {
 }
 
 impl Row {
-    fn new(eta: f32, thickness: f32, alpha: f32) -> Self {
-        let facets = Facets::round(alpha);
+    fn new(eta: f32, thickness: f32, facets: &Facets) -> Self {
         let passes = |cos: f32| match facets.is_smooth() {
             true => smooth(cos, eta, thickness),
-            false => over_facets(&facets, cos, |o, h| {
+            false => over_facets(facets, cos, |o, h| {
                 let down = refract(o, Normal3::from(h), 1.0 / eta).filter(|d| d.z < 0.0)?;
                 Some((
                     down,
@@ -214,7 +213,7 @@ impl Row {
         let sent_back = |cos: f32| match facets.is_smooth() {
             true => fresnel_dielectric(cos, 1.0 / eta) * faded(2.0 * thickness, at_cosine(cos)),
             false => {
-                let reflected = over_facets(&facets, cos, |o, h| {
+                let reflected = over_facets(facets, cos, |o, h| {
                     let up = h * (2.0 * o.dot(h)) - o;
                     let f = fresnel_dielectric(o.dot(h).clamp(0.0, 1.0), 1.0 / eta);
                     (up.z > 0.0).then(|| (up, f * faded(thickness, up)))

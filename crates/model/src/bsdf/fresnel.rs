@@ -82,6 +82,13 @@ pub enum Reflectance {
         /// Extinction, 0 or more.
         k: Spectrum,
     },
+    /// Not what a dielectric reflects but the rest, tinted.
+    Passed {
+        /// Relative index, above 0.
+        eta: f32,
+        /// Factor on it, in `[0, 1]`.
+        tint: Spectrum,
+    },
 }
 
 impl Reflectance {
@@ -97,6 +104,7 @@ impl Reflectance {
                 f0.zip(f90, |f0, f90| f0 + (f90 - f0) * rise)
             }
             Self::Index { eta, k } => eta.zip(k, |eta, k| fresnel_conductor(cos.min(1.0), eta, k)),
+            Self::Passed { eta, tint } => tint * (1.0 - fresnel_dielectric(cos.min(1.0), eta)),
         }
     }
     /// At normal and at grazing incidence.
@@ -104,6 +112,7 @@ impl Reflectance {
         match *self {
             Self::Schlick { f0, f90 } => (f0, f90),
             Self::Index { .. } => (self.at(1.0), Spectrum::ONE),
+            Self::Passed { .. } => (self.at(1.0), Spectrum::BLACK),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Rough reflection: GGX microfacets, `f = F D V` (glTF 2.0, appendix B), with Schlick's or the exact Fresnel term.
+//! Rough reflection: microfacets, `f = F D V` (glTF 2.0, appendix B), with Schlick's or the exact Fresnel term.
 //!
 //! Single scattering: light that would bounce twice between microfacets is lost, up to two thirds of it at alpha = 1
 //! (validation.md E3). The directional albedo is the split sum `E = f0 A(cos, alpha) + B(cos, alpha)` (Karis 2013,
@@ -12,17 +12,18 @@
 
 mod albedo;
 mod albedo_table;
+mod beckmann_table;
 
 use durer_core::{
     math::{Point2, Vector3, float::sqr},
     spectrum::Spectrum,
 };
 
-use super::{Branch, BranchKind, Drawn, Facets, GlossyView, Reflectance, lobe::mirrored};
+use super::{Branch, BranchKind, Distribution, Drawn, Facets, GlossyView, Reflectance, lobe::mirrored};
 
 /// Share of a uniform sky that white facets of width `alpha` send towards a cosine after one bounce, by the table.
-pub(super) fn single_scattered(cos: f32, alpha: f32) -> f32 {
-    let (a, b) = albedo::split_sum(cos, alpha);
+pub(super) fn single_scattered(cos: f32, alpha: f32, like: Distribution) -> f32 {
+    let (a, b) = albedo::split_sum(cos, alpha, like);
     a + b
 }
 
@@ -57,7 +58,7 @@ impl Glossy {
         }
         let h = h / length;
         let (cos_o, cos_i) = (wo.z.abs().max(MIN_COSINE), wi.z.abs().max(MIN_COSINE));
-        let dv = self.facets.distribution(h) * self.facets.visibility((wo, cos_o), (wi, cos_i));
+        let dv = self.facets.density(h) * self.facets.visibility((wo, cos_o), (wi, cos_i));
         // Half the length is the cosine between either direction and h; exactly the same from both.
         self.reflectance.at(0.5 * length) * (dv * self.scale)
     }
@@ -74,15 +75,19 @@ impl Glossy {
     pub(super) fn albedo_at(&self, cos: f32) -> Spectrum {
         match self.facets.is_smooth() {
             true => self.reflectance.at(cos),
-            false => Self::albedo_of(self.reflectance.ends(), self.facets.alpha(), cos),
+            false => {
+                let (f0, f90) = self.reflectance.ends();
+                let (a, b) = albedo::split_sum(cos, self.facets.alpha(), self.facets.distribution());
+                f0 * a + f90 * b
+            }
         }
     }
-    /// The same, of Schlick's reflectance between these ends and facets of this width.
+    /// The same, of Schlick's reflectance between these ends and GGX facets of this width.
     pub(super) fn albedo_of((f0, f90): (Spectrum, Spectrum), alpha: f32, cos: f32) -> Spectrum {
         if alpha < SMOOTH {
             return (Reflectance::Schlick { f0, f90 }).at(cos);
         }
-        let (a, b) = albedo::split_sum(cos, alpha);
+        let (a, b) = albedo::split_sum(cos, alpha, Distribution::Ggx);
         f0 * a + f90 * b
     }
     /// The mean of [`Glossy::directional_albedo`] by the cosine.
@@ -102,7 +107,7 @@ impl Glossy {
             return 0.0;
         }
         let (o, h) = if wo.z < 0.0 { (-wo, -h.normalize()) } else { (wo, h.normalize()) };
-        self.facets.masking(o) * self.facets.distribution(h) / (4.0 * o.z)
+        self.facets.masking(o) * self.facets.density(h) / (4.0 * o.z)
     }
     /// The direction at a point of the unit square: a visible microfacet normal mirrors `wo`. `None` if it goes into the
     /// surface, where single scattering loses it.

@@ -23,7 +23,8 @@ use durer_core::{
 
 pub use self::{below::Below, cloud::Cloud};
 use super::{
-    Branch, BranchKind, Drawn, Facets, Glossy, Reflectance, coat::faded, fresnel_dielectric, refract,
+    Branch, BranchKind, Distribution, Drawn, Facets, Glossy, Reflectance, coat::faded, fresnel_dielectric,
+    refract,
 };
 
 /// Light that enters a coat, walks between it and what is below, and leaves it again.
@@ -238,10 +239,10 @@ impl Layered {
             (eta2 * metal + (through + eta2 * more) * sqr(coat)).sqrt().clamp(0.01, 1.0)
         };
         let base = if facets.x == facets.y { self.coat } else { facets };
-        Some([0.0, 1.5].map(|more| Facets {
-            x: width(facets.x, self.coat.x, more),
-            y: width(facets.y, self.coat.y, more),
-            ..base
+        // Of Beckmann's facets GGX finds all directions too.
+        let base = base.distributed(Distribution::Ggx);
+        Some([0.0, 1.5].map(|more| {
+            base.of_widths(width(facets.x, self.coat.x, more), width(facets.y, self.coat.y, more))
         }))
     }
 
@@ -283,7 +284,7 @@ impl Layered {
         }
         let (o, i) = if wo.z < 0.0 { (-wo, -wi) } else { (wo, wi) };
         let h = (o + i).normalize();
-        let of = |facets: &Facets| facets.masking(o) * facets.distribution(h) / (4.0 * o.z);
+        let of = |facets: &Facets| facets.masking(o) * facets.density(h) / (4.0 * o.z);
         let shares = self.shares();
         let even = (1.0 - shares[0] - shares[1]) * i.z * FRAC_1_PI;
         self.widths().map_or(even, |[narrow, wide]| shares[0] * of(&narrow) + shares[1] * of(&wide) + even)

@@ -8,7 +8,7 @@ use durer_core::{
 
 use super::{
     Blurred, BranchKind, Branches, Draws, Gloss, Glossy, GlossyView, Hair, Highlight, Interface, Layered,
-    Matte, Phong, Sheet, Tilted,
+    Matte, Phong, Sheet, Tilted, Varnish,
 };
 
 /// One way in which a surface scatters light.
@@ -48,6 +48,8 @@ pub enum Lobe {
     },
     /// A normalised highlight.
     Phong(Phong),
+    /// Disney's clear coat.
+    Varnish(Varnish),
     /// What light does between a coat and a metal below it.
     Layered(Layered),
     /// Rough or sharp reflection about a normal of its own.
@@ -83,6 +85,7 @@ impl Lobe {
             Self::Matte(matte) => matte.eval(wo, wi),
             Self::Behind { albedo } if wo.z * wi.z < 0.0 => *albedo * FRAC_1_PI,
             Self::Phong(phong) => phong.eval(wo, wi),
+            Self::Varnish(varnish) => varnish.eval(wo, wi),
             Self::Layered(layered) => layered.eval(wo, wi),
             Self::Tilted(tilted) => tilted.eval(wo, wi),
             Self::Sheet(sheet) => sheet.eval(wo, wi),
@@ -103,7 +106,7 @@ impl Lobe {
             | Self::Matte(_)
             | Self::Hair(_)
             | Self::Behind { .. } => {}
-            Self::Glossy(_) | Self::Phong(_) | Self::Layered(_) => {
+            Self::Glossy(_) | Self::Phong(_) | Self::Varnish(_) | Self::Layered(_) => {
                 let weight = self.look().map_or(Spectrum::BLACK, |glossy| glossy.branch_weight(wo));
                 branches.add(BranchKind::Reflection, mirrored(wo), weight)
             }
@@ -123,7 +126,7 @@ impl Lobe {
     /// Adds the directions that are perfectly sharp; see [`super::Bsdf::sharp`].
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
         match self {
-            Self::Gloss(_) | Self::Phong(_) | Self::Layered(_) | Self::Sheet(_) => {}
+            Self::Gloss(_) | Self::Phong(_) | Self::Varnish(_) | Self::Layered(_) | Self::Sheet(_) => {}
             Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) if glossy.spreads() => {}
             Self::Blurred(blurred) => blurred.add_sharp_branches(wo, branches),
             _ => self.add_branches(wo, branches),
@@ -140,13 +143,23 @@ impl Lobe {
             | Self::Behind { .. } => false,
             Self::Mirror { .. } | Self::Interface(_) | Self::PassThrough { .. } => true,
             Self::Glossy(_) | Self::Tilted(_) => true,
-            Self::Gloss(_) | Self::Blurred(_) | Self::Phong(_) | Self::Layered(_) | Self::Sheet(_) => true,
+            Self::Gloss(_)
+            | Self::Blurred(_)
+            | Self::Phong(_)
+            | Self::Varnish(_)
+            | Self::Layered(_)
+            | Self::Sheet(_) => true,
         }
     }
     /// Whether directions can be drawn from it.
     pub(super) fn spreads(&self) -> bool {
         match self {
-            Self::Gloss(_) | Self::Blurred(_) | Self::Phong(_) | Self::Layered(_) | Self::Sheet(_) => true,
+            Self::Gloss(_)
+            | Self::Blurred(_)
+            | Self::Phong(_)
+            | Self::Varnish(_)
+            | Self::Layered(_)
+            | Self::Sheet(_) => true,
             Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
             Self::Mirror { .. } | Self::Interface(_) | Self::PassThrough { .. } => false,
             _ => self.is_followed(),
@@ -163,6 +176,7 @@ impl Lobe {
             }
             Self::Blurred(blurred) => blurred.draw(wo, u, draws),
             Self::Phong(phong) => phong.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
+            Self::Varnish(varnish) => varnish.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
             Self::Sheet(sheet) => sheet.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
             Self::Tilted(tilted) if tilted.glossy.spreads() => {
                 tilted.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn));
@@ -184,6 +198,7 @@ impl Lobe {
             Self::Glossy(glossy) if glossy.spreads() => Some(glossy.pdf(wo, wi)),
             Self::Blurred(blurred) => Some(blurred.pdf(wo, wi)),
             Self::Phong(phong) => Some(phong.pdf(wo, wi)),
+            Self::Varnish(varnish) => Some(varnish.pdf(wo, wi)),
             Self::Layered(layered) => Some(layered.pdf(wo, wi)),
             Self::Tilted(tilted) if tilted.glossy.spreads() => Some(tilted.pdf(wo, wi)),
             Self::Sheet(sheet) => Some(sheet.pdf(wo, wi)),
@@ -206,6 +221,7 @@ impl Lobe {
         match self {
             Self::Glossy(glossy) => Some(*glossy),
             Self::Phong(phong) => Some(phong.look()),
+            Self::Varnish(varnish) => Some(varnish.look()),
             Self::Layered(layered) => layered.look(),
             Self::Tilted(tilted) => Some(tilted.glossy),
             _ => None,
@@ -229,6 +245,7 @@ impl Lobe {
             Self::Matte(matte) => matte.albedo(),
             Self::Behind { albedo } => *albedo,
             Self::Phong(phong) => phong.specular,
+            Self::Varnish(varnish) => varnish.look().reflectance.ends().0 * varnish.share,
             Self::Layered(layered) => {
                 let narrow = layered.look().map_or(Spectrum::BLACK, |g| g.reflectance.ends().0 * g.scale);
                 narrow + layered.albedo()
@@ -255,6 +272,7 @@ impl Lobe {
             Self::Matte(matte) => Self::Matte(matte.scaled(by)),
             Self::Behind { albedo } => Self::Behind { albedo: albedo * by },
             Self::Phong(p) => Self::Phong(Phong { specular: p.specular * by, ..p }),
+            Self::Varnish(v) => Self::Varnish(Varnish { share: v.share * by, ..v }),
             Self::Layered(l) => Self::Layered(Layered { scale: l.scale * by, ..l }),
             Self::Tilted(t) => {
                 Self::Tilted(Tilted { glossy: Glossy { scale: t.glossy.scale * by, ..t.glossy }, ..t })

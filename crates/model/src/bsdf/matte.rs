@@ -14,7 +14,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Bounced, Leaving, Sheen, Under, coat::Body};
+use super::{Bounced, Burley, Leaving, Sheen, Under, coat::Body};
 
 /// A broad lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,8 @@ pub enum Matte {
     Sheen(Sheen),
     /// What glossy lobes lose between their facets.
     Bounced(Bounced),
+    /// Disney's body with its sheen.
+    Burley(Burley),
     /// A body below layers that reflect.
     Under(Under),
     /// What leaves a smooth boundary from below.
@@ -60,6 +62,7 @@ impl Matte {
             Self::Coated(body) => Self::Coated(body.scaled(by)),
             Self::Sheen(sheen) => Self::Sheen(Sheen { color: sheen.color * by, ..sheen }),
             Self::Bounced(bounced) => Self::Bounced(bounced.scaled(by)),
+            Self::Burley(burley) => Self::Burley(burley.scaled(by)),
             Self::Under(under) => Self::Under(under.scaled(by)),
             Self::Leaving(leaving) => Self::Leaving(leaving.scaled(by)),
         }
@@ -75,6 +78,7 @@ impl Matte {
             Self::Coated(body) => body.eval(wo, wi),
             Self::Sheen(sheen) => sheen.eval(wo, wi),
             Self::Bounced(bounced) => bounced.eval(wo, wi),
+            Self::Burley(burley) => burley.eval(wo, wi),
             Self::Under(under) => under.eval(wo, wi),
             Self::Leaving(leaving) => leaving.eval(wi),
         }
@@ -89,6 +93,7 @@ impl Matte {
             Self::Coated(body) => body.directional_albedo(wo),
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.directional_albedo(wo),
+            Self::Burley(burley) => burley.directional_albedo(wo),
             Self::Under(under) => under.albedo(),
             Self::Leaving(leaving) => leaving.albedo(),
         }
@@ -103,6 +108,7 @@ impl Matte {
             Self::Coated(body) => body.albedo(),
             Self::Sheen(sheen) => sheen.color * sheen.hidden,
             Self::Bounced(bounced) => bounced.albedo(),
+            Self::Burley(burley) => burley.albedo(),
             Self::Under(under) => under.albedo(),
             Self::Leaving(leaving) => leaving.albedo(),
         }

@@ -7,9 +7,11 @@
 //! Lights are reflected through [`Bsdf::eval`]. What is not a light is seen through [`Bsdf::branches`] (rays are
 //! spawned), [`Bsdf::ambient`] and [`Bsdf::glossy`] (no ray is spawned: the integrator asks the lights for an average).
 
+mod beckmann;
 mod blurred;
 mod bounced;
 mod branch;
+mod burley;
 mod coat;
 mod draw;
 mod facets;
@@ -32,6 +34,7 @@ mod sheet;
 mod straight;
 mod tilted;
 mod under;
+mod varnish;
 mod view;
 
 use durer_core::{
@@ -42,9 +45,10 @@ use durer_core::{
 pub use blurred::{Blur, Blurred};
 pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
+pub use burley::Burley;
 pub use coat::{Body, Coat};
 pub use draw::{Drawn, Draws};
-pub use facets::Facets;
+pub use facets::{Distribution, Facets};
 pub use fresnel::{
     Reflectance, fresnel_conductor, fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick,
 };
@@ -64,6 +68,7 @@ pub use sheet::Sheet;
 pub use straight::Straight;
 pub use tilted::Tilted;
 pub use under::{Under, Veil};
+pub use varnish::Varnish;
 pub use view::{FresnelView, LobeView, LostDraw};
 
 /// How rays from a surface may meet a light that is sampled as well; so that nothing counts twice.
@@ -211,6 +216,7 @@ impl Bsdf {
                     | Lobe::Matte(_)
                     | Lobe::Behind { .. }
                     | Lobe::Phong(_)
+                    | Lobe::Varnish(_)
                     | Lobe::Layered(_)
                     | Lobe::Tilted(_)
                     | Lobe::Sheet(_)
@@ -229,6 +235,7 @@ impl Bsdf {
             Lobe::Layered(layered) => layered.look().is_none_or(|look| is_rough(look.facets.alpha())),
             Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => is_rough(glossy.facets.alpha()),
             Lobe::Sheet(sheet) => is_rough(sheet.glossy().facets.alpha()),
+            Lobe::Varnish(varnish) => is_rough(varnish.alpha),
             Lobe::Gloss(Gloss { exponent, .. }) | Lobe::Phong(Phong { exponent, .. }) => is_wide(*exponent),
             Lobe::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => is_rough(facets.alpha()),
             Lobe::Blurred(Blurred { blur: Blur::Cosine { reflection, transmission }, .. }) => {

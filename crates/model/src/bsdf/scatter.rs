@@ -215,6 +215,7 @@ impl Lobe {
             Self::Diffuse { albedo } | Self::Behind { albedo } => albedo.mean(),
             Self::Matte(matte) => matte.directional_albedo(wo).mean(),
             Self::Phong(phong) => phong.specular.mean(),
+            Self::Varnish(varnish) => varnish.strength(wo),
             Self::Layered(layered) => layered.strength(wo),
             Self::Highlight(highlight) => highlight.specular.mean(),
             Self::Glossy(glossy) => glossy.directional_albedo(wo).mean() * glossy.scale,
@@ -250,6 +251,7 @@ impl Lobe {
                 (!weight.is_black()).then_some(OfLobe { kind, weight, ..own })
             }
             Self::Phong(phong) => phong.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Varnish(varnish) => varnish.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Layered(layered) if alone => layered.draw(wo, choice, u).as_ref().map(OfLobe::drawn),
             // PERF: a walk saved (bench render).
             Self::Layered(layered) => layered.direction(wo, choice, u).map(|wi| OfLobe {
@@ -313,6 +315,7 @@ impl Lobe {
             Self::Behind { .. } if wo.z * wi.z < 0.0 => wi.z.abs() * FRAC_1_PI,
             Self::Matte(matte) if (wo.z * wi.z > 0.0) != matte.is_behind() => wi.z.abs() * FRAC_1_PI,
             Self::Phong(phong) => phong.pdf(wo, wi),
+            Self::Varnish(varnish) => varnish.pdf(wo, wi),
             Self::Layered(layered) => layered.pdf(wo, wi),
             Self::Highlight(highlight) => highlight.pdf(wo, wi),
             Self::Glossy(glossy) if glossy.spreads() => glossy.pdf(wo, wi),

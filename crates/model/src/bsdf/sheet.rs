@@ -5,7 +5,7 @@ use durer_core::{
     spectrum::Spectrum,
 };
 
-use super::{Branch, BranchKind, Drawn, Glossy, Reflectance};
+use super::{Branch, BranchKind, Drawn, Facets, Glossy, Reflectance};
 
 /// Rough transmission straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +25,10 @@ impl Sheet {
                 ..*outside
             },
         }
+    }
+    /// What these facets of a dielectric let through, tinted.
+    pub fn through(eta: f32, facets: Facets, tint: Spectrum) -> Self {
+        Self { mirrored: Glossy { reflectance: Reflectance::Passed { eta, tint }, facets, scale: 1.0 } }
     }
     pub(super) fn scaled(self, by: f32) -> Self {
         Self { mirrored: Glossy { scale: self.mirrored.scale * by, ..self.mirrored } }

@@ -49,6 +49,7 @@ impl Lobe {
             | Self::Matte(_)
             | Self::Behind { .. }
             | Self::Phong(_)
+            | Self::Varnish(_)
             | Self::Layered(_)
             | Self::Tilted(_)
             | Self::Hair(_)

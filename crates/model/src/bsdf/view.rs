@@ -21,7 +21,7 @@ pub struct LobeView {
     pub transmittance: Spectrum,
     /// Power of the cosine by which it spreads, the smaller one of two; `None` if it spreads by no such power.
     pub exponent: Option<f32>,
-    /// GGX roughness, 0 to 1; `None` if it does not spread by microfacets.
+    /// Width of microfacets, 0 to 1; `None` if it does not spread by microfacets.
     pub alpha: Option<f32>,
 }
 
@@ -58,6 +58,7 @@ impl Lobe {
             Self::Matte(_) => "matte",
             Self::Behind { .. } => "translucent",
             Self::Phong(_) => "phong",
+            Self::Varnish(_) => "varnish",
             Self::Layered(_) => "layered",
             Self::Tilted(_) => "tilted",
             Self::Sheet(_) => "sheet",
@@ -100,7 +101,7 @@ impl Lobe {
             Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
             Self::Hair(hair) => LobeView { reflectance: hair.tint(), ..none },
             Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
-            Self::Layered(_) | Self::Tilted(_) => LobeView {
+            Self::Layered(_) | Self::Tilted(_) | Self::Varnish(_) => LobeView {
                 reflectance: self.tint(),
                 alpha: self.look().map(|glossy| glossy.facets.alpha()),
                 ..none

@@ -128,6 +128,7 @@ impl Kind for CoatedDiffuse {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Layers::THICKNESS,
             Layers::ALBEDO,
             Layers::G,
@@ -144,7 +145,7 @@ impl Kind for CoatedDiffuse {
             coat: Coat::new(
                 (layers.eta_d, layers.dispersion.as_ref()),
                 layers.thickness,
-                roughness.constant(),
+                (roughness.constant(), roughness.like()),
             ),
             roughness,
             layers,

@@ -1,4 +1,4 @@
-//! Metal: GGX microfacets, each a smooth conductor after Fresnel's equations.
+//! Metal: microfacets, each a smooth conductor after Fresnel's equations.
 //!
 //! Where rays carry colours and no wavelengths a metal has three indices. They are chosen so that the colour of its reflectance at
 //! normal incidence is that of the measured curves, integrated over wavelengths: see [`durer_core::spectrum::conductor`].
@@ -8,7 +8,7 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, detail::Detail, roughness::Roughness, share, share_input};
+use super::{Material, REFLECTION, detail::Detail, read_factor, roughness::Roughness, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bounced, Bsdf, Facets, Glossy, Lobe, Matte, Reflectance},
@@ -21,6 +21,7 @@ pub struct Conductor {
     metal: Metal,
     roughness: Roughness,
     compensates: bool,
+    factor: Option<ColorInput>,
     detail: Detail,
 }
 
@@ -139,7 +140,9 @@ impl Kind for Conductor {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             COMPENSATION,
+            REFLECTION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -149,6 +152,7 @@ impl Kind for Conductor {
             metal: Metal::read(args, Words::USUAL, 1.0),
             roughness: Roughness::read(args),
             compensates: args.bool(COMPENSATION.name),
+            factor: read_factor(args, &REFLECTION),
             detail: Detail::read(args),
         }))
     }
@@ -168,7 +172,10 @@ impl Material for Conductor {
         let reflectance = self.metal.at(cx, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
-        let single = Bsdf::default().with(reflecting(reflectance, facets, cos));
+        let mut single = Bsdf::default().with(reflecting(reflectance, facets, cos));
+        if let Some(factor) = &self.factor {
+            single.dim(share(cx, factor, &surface.texture_at()));
+        }
         match Bounced::of(&reflectance, &facets).filter(|_| self.compensates) {
             Some(lost) => single.with(Lobe::Matte(Matte::Bounced(lost))),
             None => single,

@@ -1,11 +1,14 @@
 //! Glass or water, smooth or frosted: reflection and refraction, divided by Fresnel's equations.
-use durer_core::math::Vector3;
-use durer_scene::{Args, Kind, Schema};
+use durer_core::{math::Vector3, spectrum::Spectrum};
+use durer_scene::{Args, ColorInput, Kind, Schema};
 
-use super::{Arriving, Material, Sent, detail::Detail, roughness::Roughness};
+use super::{
+    Arriving, Material, REFLECTION, Sent, TRANSMISSION, detail::Detail, read_factor, roughness::Roughness,
+    share,
+};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bsdf, Interface, Lobe, SMOOTH},
+    bsdf::{Bsdf, Interface, Lobe, SMOOTH, Split},
 };
 
 /// An interface; the outside is where the normal points.
@@ -13,6 +16,8 @@ use crate::{
 pub struct Dielectric {
     medium: Medium,
     roughness: Roughness,
+    /// On what is reflected and let through.
+    factors: [Option<ColorInput>; 2],
     detail: Detail,
 }
 
@@ -33,6 +38,9 @@ impl Kind for Dielectric {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
+            REFLECTION,
+            TRANSMISSION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -41,6 +49,7 @@ impl Kind for Dielectric {
         Some(Box::new(Self {
             medium: Medium::read(args),
             roughness: Roughness::read(args),
+            factors: [&REFLECTION, &TRANSMISSION].map(|spec| read_factor(args, spec)),
             detail: Detail::read(args),
         }))
     }
@@ -49,7 +58,15 @@ impl Kind for Dielectric {
 impl Material for Dielectric {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
         self.detail.tilt(cx, surface, wo);
-        let interface = Interface::clear(self.medium.eta(&cx.basis));
+        let mut interface = Interface::clear(self.medium.eta(&cx.basis));
+        if self.factors.iter().any(Option::is_some) {
+            let at = surface.texture_at();
+            let of = |factor: &Option<ColorInput>| {
+                factor.as_ref().map_or(Spectrum::ONE, |factor| share(cx, factor, &at))
+            };
+            let [reflection, transmission] = self.factors.each_ref().map(of);
+            interface.split = Split::Fresnel { reflection, transmission };
+        }
         let facets = self.roughness.facets(cx, surface);
         Bsdf::default().with(Lobe::boundary(interface, facets))
     }

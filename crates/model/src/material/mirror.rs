@@ -2,9 +2,7 @@
 use durer_core::math::Vector3;
 use durer_scene::{Args, ColorInput, Kind, ParamSpec, Schema};
 
-use super::{
-    Arriving, Material, Sent, largest_share, roughness::Roughness, sent::ggx_gain, share, share_input,
-};
+use super::{Arriving, Material, Sent, largest_share, roughness::Roughness, share, share_input};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Glossy, Lobe, Reflectance, SMOOTH},
@@ -30,6 +28,7 @@ impl Kind for Mirror {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -55,8 +54,8 @@ impl Material for Mirror {
         let followed = largest_share(cx, &self.reflectance);
         match self.roughness.constant() {
             Some(alpha) if alpha < SMOOTH => Sent { followed, ..Sent::default() },
-            alpha => Sent {
-                own: arriving.highlight(followed * alpha.map_or(f32::INFINITY, ggx_gain)),
+            _ => Sent {
+                own: arriving.highlight(followed * self.roughness.gain()),
                 scattered: arriving.sky + arriving.lamps,
                 followed,
             },

@@ -10,6 +10,7 @@ mod detail;
 mod dielectric;
 mod diffuse;
 mod diffusetransmission;
+mod disney;
 mod hair;
 mod interface;
 mod mask;
@@ -27,7 +28,7 @@ mod thindielectric;
 use std::fmt::Debug;
 
 use durer_core::{math::Vector3, spectrum::Spectrum};
-use durer_scene::{Args, ColorInput, Entry};
+use durer_scene::{Args, ColorInput, Entry, ParamDefault, ParamSpec, ParamType};
 
 pub use self::{
     classic::Classic,
@@ -37,6 +38,7 @@ pub use self::{
     dielectric::Dielectric,
     diffuse::Diffuse,
     diffusetransmission::DiffuseTransmission,
+    disney::Disney,
     hair::Hair,
     interface::Interface,
     mask::Mask,
@@ -124,6 +126,7 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<ThinDielectric>(),
     Entry::of::<DiffuseTransmission>(),
     Entry::of::<Phong>(),
+    Entry::of::<Disney>(),
     Entry::of::<Hair>(),
     Entry::of::<Subsurface>(),
     Entry::of::<Mix>(),
@@ -152,6 +155,20 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
 fn share(cx: &ShadeCx<'_>, input: &ColorInput, at: &TextureAt) -> Spectrum {
     cx.weight(input, at, |v| v.clamp(0.0, 1.0))
+}
+
+/// A factor that Mitsuba's users may put on what is mirrored or let through, away from what nature does; 1 if it is left out.
+const fn factor(name: &'static str, doc: &'static str) -> ParamSpec {
+    ParamSpec::new(name, ParamType::ColorTexture, ParamDefault::Unset, doc).range(0.0, f32::INFINITY)
+}
+const REFLECTION: ParamSpec =
+    factor("reflection", "Factor on what is reflected, for what nature does not do.");
+const TRANSMISSION: ParamSpec =
+    factor("transmission", "Factor on what is let through, for what nature does not do.");
+
+/// Such a factor as it was given, if it was.
+fn read_factor(args: &mut Args<'_>, spec: &ParamSpec) -> Option<ColorInput> {
+    args.is_set(spec.name).then(|| share_input(args, spec.name))
 }
 
 /// No [`share`] of this input is larger.

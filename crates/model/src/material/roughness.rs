@@ -1,16 +1,21 @@
-//! pbrt's words for how rough a surface is, and the GGX width they mean.
+//! pbrt's words for how rough a surface is, and the microfacets they mean.
 use durer_core::math::{Frame, Vector3};
 use durer_scene::{Args, FloatInput, ParamDefault, ParamSpec, ParamType};
 
-use crate::{ShadeCx, Surface, bsdf::Facets};
+use super::sent::facet_gain;
+use crate::{
+    ShadeCx, Surface,
+    bsdf::{Distribution, Facets},
+};
 
 /// Roughness of microfacets, along u and across it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Roughness {
     u: FloatInput,
     v: FloatInput,
-    /// Roughness is the square of the GGX width, as pbrt-v4 has it unless told otherwise.
+    /// Roughness is the square of the width, as pbrt-v4 has it unless told otherwise.
     remap: bool,
+    like: Distribution,
 }
 
 /// What the four parameters are called.
@@ -46,20 +51,30 @@ impl Roughness {
         "remaproughness",
         ParamType::Bool,
         ParamDefault::Bool(true),
-        "The GGX width is the square root of roughness; if false it is roughness itself.",
+        "The width of microfacets is the square root of roughness; if false it is roughness itself.",
+    );
+    pub(super) const DISTRIBUTION: ParamSpec = ParamSpec::new(
+        "distribution",
+        ParamType::Choice(&["ggx", "beckmann"]),
+        ParamDefault::Text("ggx"),
+        "Of the normals of microfacets.",
     );
 
-    /// Reads the four parameters.
+    /// Reads the parameters.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         Self::read_as(args, Words::USUAL)
     }
 
-    /// Reads the four parameters under these names.
+    /// Reads the parameters under these names.
     pub(super) fn read_as(args: &mut Args<'_>, words: Words) -> Self {
         let both = args.float_input(words.both);
         let mut one = |name: &str| if args.is_set(name) { args.float_input(name) } else { both };
         let (u, v) = (one(words.u), one(words.v));
-        Self { u, v, remap: args.bool("remaproughness") }
+        let like = match args.text(Self::DISTRIBUTION.name) {
+            "beckmann" => Distribution::Beckmann,
+            _ => Distribution::Ggx,
+        };
+        Self { u, v, remap: args.bool("remaproughness"), like }
     }
 
     /// The facets at a place whose shading normal is settled.
@@ -70,9 +85,19 @@ impl Roughness {
             if self.remap { value.sqrt() } else { value }
         };
         if self.u == self.v {
-            return Facets::round(alpha(self.u));
+            return Facets::round(alpha(self.u)).distributed(self.like);
         }
-        Facets::along(tangent(surface), alpha(self.u), alpha(self.v))
+        Facets::along(tangent(surface), alpha(self.u), alpha(self.v)).distributed(self.like)
+    }
+
+    /// How normals are distributed.
+    pub(super) fn like(&self) -> Distribution {
+        self.like
+    }
+
+    /// The largest `pi f cos` of what is reflected.
+    pub(super) fn gain(&self) -> f32 {
+        self.constant().map_or(f32::INFINITY, |alpha| facet_gain(alpha, self.like))
     }
 
     /// The one width of all points, if it is the same everywhere and in all directions.

@@ -3,9 +3,11 @@
 //! What leaves a surface is `L <= own + (1 - k) scattered + k B` for some `k` up to `followed`, where `B` is the radiance
 //! of the rays that are followed from it. If every ray of a scene is to be at most `B`, so must this: `B >= scattered`
 //! where `own` is 0, else `B >= own / (1 - followed) + scattered`, and there is no bound where `followed` is 1.
-use std::f32::consts::PI;
+use std::f32::consts::{E, PI};
 
 use durer_core::math::float::sqr;
+
+use crate::bsdf::Distribution;
 
 /// How bright it is around a surface, at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,9 +68,14 @@ impl Sent {
     }
 }
 
-/// The largest `pi f cos` of GGX reflection: `D <= 1 / (pi alpha^2)`, and `V cos <= 1 / (2 alpha)`.
-pub(super) fn ggx_gain(alpha: f32) -> f32 {
-    1.0 / (2.0 * sqr(alpha) * alpha)
+/// The largest `pi f cos` of what microfacets reflect. Of GGX `D <= 1 / (pi alpha²)` and `V cos <= 1 / (2 alpha)`, of Beckmann
+/// up to alpha = 1 `D <= 4 / (pi e alpha²)` and `V cos <= sqrt(pi) / (2 alpha)`.
+pub(super) fn facet_gain(alpha: f32, like: Distribution) -> f32 {
+    let cubed = sqr(alpha) * alpha;
+    match like {
+        Distribution::Ggx => 1.0 / (2.0 * cubed),
+        Distribution::Beckmann => 2.0 * PI.sqrt() / (E * cubed),
+    }
 }
 
 /// The largest `pi f cos` of a lobe with the density `(n + 1) / (2 pi) cos^n`, of which a part may be turned onto another.

@@ -156,6 +156,7 @@ impl Kind for Subsurface {
             Roughness::U,
             Roughness::V,
             Roughness::REMAP,
+            Roughness::DISTRIBUTION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -165,7 +166,7 @@ impl Kind for Subsurface {
         let (eta, dispersion) = args.refraction("eta");
         let roughness = Roughness::read(args);
         Some(Box::new(Self {
-            coat: Coat::new((eta, dispersion.as_ref()), 0.0, roughness.constant()),
+            coat: Coat::new((eta, dispersion.as_ref()), 0.0, (roughness.constant(), roughness.like())),
             medium: Medium { dispersion, priority, ..Medium::clear(eta) },
             stuff: Stuff::read(args),
             scale: args.float("scale"),

@@ -24,14 +24,18 @@ impl Kind for PlyMesh {
                 "Not supported yet.",
             ),
             ParamSpec::float("edgelength", 1.0, "Of displaced triangles; not supported yet.").unit("m"),
+            ParamSpec::float("displacement.edgelength", 1.0, "The same in pbrt's words; not supported yet.")
+                .unit("m"),
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         if !args.is_sound() {
             return None;
         }
-        if args.is_set("displacement") {
-            args.warning("displacement", "\"displacement\" is not supported yet and has no effect");
+        for name in ["displacement", "displacement.edgelength"] {
+            if args.is_set(name) {
+                args.warning(name, format!("\"{name}\" is not supported yet and has no effect"));
+            }
         }
         let mesh = args.mesh("filename");
         // A file that may be missing leaves an empty mesh.

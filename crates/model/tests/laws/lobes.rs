@@ -2,8 +2,9 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Below, Blur, Blurred, Bounced, Bsdf, Cloud, Coat, Facets, Gloss, Glossy, Hair, Highlight, Interface,
-    Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted, Under, Veil,
+    Below, Blur, Blurred, Bounced, Bsdf, Burley, Cloud, Coat, Distribution, Facets, Gloss, Glossy, Hair,
+    Highlight, Interface, Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted,
+    Under, Varnish, Veil,
 };
 
 /// Grey of a value.
@@ -22,6 +23,11 @@ pub(super) fn glossy(facets: Facets) -> Lobe {
     Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
 }
 
+/// The same facets by Beckmann's distribution.
+pub(super) fn normal(facets: Facets) -> Facets {
+    facets.distributed(Distribution::Beckmann)
+}
+
 /// Rough metal.
 pub(super) fn metal(facets: Facets) -> Lobe {
     let reflectance = Reflectance::Index { eta: grey(0.2), k: grey(3.0) };
@@ -35,7 +41,7 @@ pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe {
 
 /// A matte body of this albedo below a coat of this roughness, walks of `bounces`.
 pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
-    let coat = Coat::new((1.5, None), 0.01, Some(alpha));
+    let coat = Coat::new((1.5, None), 0.01, (Some(alpha), Distribution::Ggx));
     Lobe::Matte(Matte::Coated(coat.body(grey(albedo), (1.5, &Facets::round(alpha)), bounces, 1.0)))
 }
 
@@ -54,10 +60,10 @@ fn cloud(albedo: f32, g: f32) -> Cloud {
     Cloud::new(grey(albedo), g)
 }
 
-/// What white facets of this width lose.
-pub(super) fn bounced(alpha: f32) -> Lobe {
+/// What such white facets lose.
+pub(super) fn bounced(facets: Facets) -> Lobe {
     let white = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
-    let lost = Bounced::of(&white, &Facets::round(alpha)).expect("rough facets");
+    let lost = Bounced::of(&white, &facets).expect("rough facets");
     Lobe::Matte(Matte::Bounced(lost))
 }
 
@@ -110,14 +116,20 @@ pub(super) fn spread() -> Vec<Lobe> {
         glossy(brushed(0.6, 0.2)),
         metal(round(0.3)),
         metal(brushed(0.2, 0.9)),
+        glossy(normal(round(0.2))),
+        glossy(normal(brushed(0.7, 0.25))),
+        metal(normal(round(1.0))),
         frosted(1.5, round(0.4)),
         frosted(1.0 / 1.33, brushed(0.25, 0.6)),
+        frosted(1.5, normal(round(0.4))),
+        frosted(1.5, normal(brushed(0.3, 0.8))),
         Lobe::Matte(Matte::rough(Spectrum::ONE, 1.0)),
         Lobe::Matte(Matte::rough(grey(0.5), 0.4)),
         coated(1.0, 0.0, 5),
         Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.5, Vector3::new(0.6, 0.0, 0.8)))),
         Lobe::Matte(Matte::Sheen(Sheen::new(Spectrum::ONE, 0.05, Vector3::new(0.6, 0.0, 0.8)))),
-        bounced(0.8),
+        bounced(round(0.8)),
+        bounced(normal(round(0.8))),
         coated(0.8, 0.4, 5),
         phong(1.0, false),
         phong(40.0, false),
@@ -125,6 +137,7 @@ pub(super) fn spread() -> Vec<Lobe> {
         layered(round(0.3), round(0.2)),
         layered(round(0.0), brushed(0.3, 0.15)),
         layered(brushed(0.2, 0.4), round(0.0)),
+        layered(normal(round(0.3)), normal(brushed(0.2, 0.4))),
         clouded((round(0.0), 0.5), cloud(1.0, 0.3), Below::Matte { albedo: grey(0.8) }, 5),
         clouded((round(0.3), 1.0), cloud(0.9, -0.2), Below::Matte { albedo: grey(0.5) }, 5),
         clouded(
@@ -143,6 +156,9 @@ pub(super) fn spread() -> Vec<Lobe> {
         Lobe::Matte(Matte::Under(under(0.3, 0.0, 0.0))),
         Lobe::Matte(Matte::Under(under(0.0, 0.8, 0.7))),
         Lobe::Matte(Matte::Under(under(0.3, 0.8, 0.0).seen_through())),
+        Lobe::Matte(Matte::Burley(burley(0.0))),
+        Lobe::Matte(Matte::Burley(burley(0.7))),
+        Lobe::Varnish(Varnish { share: 1.0, alpha: 0.1 }),
         tilted(0.25, Vector3::new(0.36, 0.48, 0.8)),
         tilted(0.4, Vector3::new(-0.28, 0.0, 0.96)),
         sheet(0.3),
@@ -150,6 +166,11 @@ pub(super) fn spread() -> Vec<Lobe> {
         hair(0.3, [0.4, 0.7], -0.8),
         hair(1.2, [0.7, 0.35], 0.0),
     ]
+}
+
+/// Disney's body, this flat.
+pub(super) fn burley(flatness: f32) -> Burley {
+    Burley { color: grey(0.8), sheen: grey(0.3), roughness: 0.6, flatness }
 }
 
 /// What leaves a smooth body of this index, seen from below.
@@ -196,6 +217,8 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Sheet(_) => 18,
         Lobe::Hair(_) => 19,
         Lobe::Matte(Matte::Leaving(_)) => 20,
+        Lobe::Matte(Matte::Burley(_)) => 21,
+        Lobe::Varnish(_) => 22,
     }
 }
 
@@ -204,5 +227,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..21).collect::<Vec<_>>());
+    assert_eq!(here, (0..23).collect::<Vec<_>>());
 }

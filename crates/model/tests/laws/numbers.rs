@@ -4,13 +4,13 @@ use durer_core::{
     spectrum::Spectrum,
 };
 use durer_model::bsdf::{
-    Below, Bsdf, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, fresnel_conductor,
-    fresnel_dielectric, mirrored_by_layers, refract,
+    Below, Bsdf, Burley, Cloud, Facets, Glossy, Layered, Lobe, Matte, Phong, Reflectance, Varnish,
+    fresnel_conductor, fresnel_dielectric, mirrored_by_layers, refract,
 };
-use durer_testkit::{interface, quadrature::cosine_hemisphere, random::Random};
+use durer_testkit::{DVec3, interface, quadrature::cosine_hemisphere, random::Random};
 
 use super::{
-    lobes::{bounced, brushed, clouded, coated, glossy, layered},
+    lobes::{bounced, brushed, burley, clouded, coated, glossy, layered, normal},
     sampling::energy,
     slow, v,
 };
@@ -196,14 +196,48 @@ fn a_rough_coat_gives_back_what_the_walk_does() {
 }
 
 #[test]
+fn disneys_coat_is_that_of_its_first_paper() {
+    // Straight on F is 0.04 and nothing is shadowed: f = 0.01 D, D = (a² - 1) / (pi a² ln a²) (Burley 2012, equation 9).
+    for alpha in [0.001f64, 0.02, 0.1] {
+        let a2 = alpha * alpha;
+        let expected = 0.01 * (a2 - 1.0) / (std::f64::consts::PI * a2 * a2.ln());
+        let up = Vector3::new(0.0, 0.0, 1.0);
+        let got = f64::from(Varnish { share: 1.0, alpha: alpha as f32 }.eval(up, up).mean());
+        assert!((got / expected - 1.0).abs() < 1e-4, "{alpha}: {got} {expected}");
+    }
+}
+
+#[test]
+fn disneys_body_is_that_of_its_first_paper() {
+    // Burley 2012: (1 + (F90 - 1) F_i) (1 + (F90 - 1) F_o) with F90 = 1/2 + 2 roughness cos² d.
+    let mut random = Random::new(86);
+    for _ in 0..200 {
+        let (o, i) = (random.direction(), random.direction());
+        let (o, i) = (DVec3::new(o.x, o.y, o.z.abs()), DVec3::new(i.x, i.y, i.z.abs()));
+        let rise = |c: f64| (1.0 - c).powi(5);
+        let d = (o + i).normalize().dot(o);
+        let most = 0.5 + 2.0 * 0.6 * d * d;
+        let part = |c: f64| 1.0 + (most - 1.0) * rise(c);
+        let expected = 0.8 / std::f64::consts::PI * part(o.z) * part(i.z) + 0.3 * rise(d);
+        let got = Matte::Burley(burley(0.0)).eval(v(o), v(i)).mean();
+        assert!((f64::from(got) - expected).abs() < 1e-5, "{o:?} {i:?}: {got} {expected}");
+        // Flat bodies: Hanrahan and Krueger's as in the second paper, where all light comes and goes straight.
+        let flat = Matte::Burley(Burley { flatness: 1.0, ..burley(0.0) });
+        let up = Vector3::new(0.0, 0.0, 1.0);
+        assert!((flat.eval(up, up).mean() - 0.8 * std::f32::consts::FRAC_1_PI * 0.625).abs() < 1e-6);
+    }
+}
+
+#[test]
 fn white_facets_with_compensation_lose_nothing_e3() {
     let mut random = Random::new(85);
-    for alpha in [0.1, 0.25, 0.5, 1.0] {
-        let both = Bsdf::default().with(glossy(Facets::round(alpha))).with(bounced(alpha));
+    let rounds = [0.1, 0.25, 0.5, 1.0].map(Facets::round);
+    for facets in rounds.into_iter().chain(rounds.map(normal)) {
+        let both = Bsdf::default().with(glossy(facets)).with(bounced(facets));
         for cos in [1.0, 0.5, 0.2] {
             let (mean, sigma) = energy(&both, seen_under(cos), 100_000, &mut random);
             // The table of single scattering is good to a percent.
-            assert!((mean - 1.0).abs() < 4.0 * sigma + 0.012, "{alpha} {cos}: {mean} +- {sigma}");
+            assert!((mean - 1.0).abs() < 4.0 * sigma + 0.012, "{facets:?} {cos}: {mean} +- {sigma}");
         }
     }
 }

@@ -34,14 +34,25 @@ const OPAQUE: &[Plugin<Build>] = &[
     },
     Plugin {
         name: "conductor",
-        takes: &["material", "eta", "k", "ext_eta"],
-        lacks: &["specular_reflectance"],
+        takes: &["material", "eta", "k", "ext_eta", "specular_reflectance"],
+        lacks: &[],
         build: conductor,
     },
     Plugin {
         name: "roughconductor",
-        takes: &["material", "eta", "k", "ext_eta", "distribution", "alpha", "alpha_u", "alpha_v"],
-        lacks: &["specular_reflectance", "sample_visible"],
+        takes: &[
+            "material",
+            "eta",
+            "k",
+            "ext_eta",
+            "distribution",
+            "alpha",
+            "alpha_u",
+            "alpha_v",
+            "specular_reflectance",
+            "sample_visible",
+        ],
+        lacks: &[],
         build: conductor,
     },
     Plugin {
@@ -52,14 +63,22 @@ const OPAQUE: &[Plugin<Build>] = &[
     },
     Plugin {
         name: "roughplastic",
-        takes: &["diffuse_reflectance", "int_ior", "ext_ior", "nonlinear", "distribution", "alpha"],
-        lacks: &["specular_reflectance", "sample_visible"],
+        takes: &[
+            "diffuse_reflectance",
+            "int_ior",
+            "ext_ior",
+            "nonlinear",
+            "distribution",
+            "alpha",
+            "sample_visible",
+        ],
+        lacks: &["specular_reflectance"],
         build: layered::plastic,
     },
     Plugin {
         name: "pplastic",
         takes: &["diffuse_reflectance", "int_ior", "ext_ior", "distribution", "alpha", "alpha_u", "alpha_v"],
-        lacks: &["specular_reflectance", "sample_visible"],
+        lacks: &["specular_reflectance"],
         build: layered::plastic,
     },
     Plugin {
@@ -74,8 +93,8 @@ const OPAQUE: &[Plugin<Build>] = &[
 const OPEN: &[Plugin<Build>] = &[
     Plugin {
         name: "dielectric",
-        takes: &["int_ior", "ext_ior"],
-        lacks: &["specular_reflectance", "specular_transmittance"],
+        takes: &["int_ior", "ext_ior", "specular_reflectance", "specular_transmittance"],
+        lacks: &[],
         build: dielectric,
     },
     Plugin {
@@ -86,8 +105,18 @@ const OPEN: &[Plugin<Build>] = &[
     },
     Plugin {
         name: "roughdielectric",
-        takes: &["int_ior", "ext_ior", "distribution", "alpha", "alpha_u", "alpha_v"],
-        lacks: &["specular_reflectance", "specular_transmittance", "sample_visible"],
+        takes: &[
+            "int_ior",
+            "ext_ior",
+            "distribution",
+            "alpha",
+            "alpha_u",
+            "alpha_v",
+            "specular_reflectance",
+            "specular_transmittance",
+            "sample_visible",
+        ],
+        lacks: &[],
         build: dielectric,
     },
     Plugin { name: "null", takes: &[], lacks: &[], build: |_, _| Some(("interface", Params::new())) },
@@ -249,11 +278,10 @@ fn tilted(world: &mut World<'_>, object: &Object, backs: Backs, change: Change<'
     } else {
         normals(world, &texture)?
     };
-    if matches!(inner.plugin.as_str(), "principled" | "principledthin" | "null") && params.is_some() {
+    if inner.plugin == "null" && params.is_some() {
         world.once(object.at, format!("{} in {}: the map has no effect", inner.shown(), object.shown()));
     }
-    let params =
-        params.filter(|_| !matches!(inner.plugin.as_str(), "principled" | "principledthin" | "null"));
+    let params = params.filter(|_| inner.plugin != "null");
     let mut with = |given: Params| {
         params.iter().flat_map(Params::iter).fold(change(given), |mut all, p| {
             all.push(p.clone());
@@ -302,16 +330,10 @@ fn rough_diffuse(world: &mut World<'_>, object: &Object) -> Option<(&'static str
     ))
 }
 
-/// Roughness as parameters of ours: alpha itself. Beckmann's distribution becomes GGX.
+/// Roughness as parameters of ours: alpha itself, and the distribution.
 pub(super) fn roughness(world: &mut World<'_>, object: &Object, params: Params) -> Params {
-    if object.word("distribution", &["beckmann", "ggx"], world.said) == "beckmann" {
-        let message = format!(
-            "{}: Beckmann's distribution of microfacets is drawn as GGX of the same alpha",
-            object.plugin
-        );
-        world.once(object.at, message);
-    }
-    let params = params.bool("remaproughness", false);
+    let distribution = object.word("distribution", &["beckmann", "ggx"], world.said);
+    let params = params.string("distribution", distribution).bool("remaproughness", false);
     let given = |name: &str| object.get(name).is_some() || object.children.iter().any(|c| c.name == name);
     if given("alpha_u") || given("alpha_v") {
         let params = world.number(params, object, ("alpha_u", "uroughness"));
@@ -326,11 +348,14 @@ pub(super) fn roughness(world: &mut World<'_>, object: &Object, params: Params) 
 
 fn conductor(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
     let params = metal::conductor(world, object)?;
+    let params = world.color(params, object, ("specular_reflectance", "reflection"));
     Some(("conductor", if object.plugin == "conductor" { params } else { roughness(world, object, params) }))
 }
 
 fn dielectric(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
     let params = Params::new().float("eta", relative(world, object, "bk7"));
+    let params = world.color(params, object, ("specular_reflectance", "reflection"));
+    let params = world.color(params, object, ("specular_transmittance", "transmission"));
     Some((
         "dielectric",
         if object.plugin == "dielectric" { params } else { roughness(world, object, params) },

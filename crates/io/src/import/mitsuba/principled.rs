@@ -1,5 +1,4 @@
-//! Disney's materials (Burley 2012, 2015) by that of glTF, which is nearest: base colour, metal, roughness, transmission, sheen
-//! and clear coat mean the same, their formulas differ.
+//! Disney's materials (Burley 2012, 2015): `principled`, and `principledthin` for sheets.
 use durer_scene::Params;
 
 use super::{
@@ -7,6 +6,16 @@ use super::{
     world::World,
 };
 
+/// Numbers that both take, and what ours are called.
+const COMMON: [(&str, &str); 7] = [
+    ("roughness", "roughness"),
+    ("anisotropic", "anisotropic"),
+    ("spec_trans", "spectrans"),
+    ("spec_tint", "speculartint"),
+    ("sheen", "sheen"),
+    ("sheen_tint", "sheentint"),
+    ("flatness", "flatness"),
+];
 /// Parameters of `principled`.
 pub(super) const TAKES: &[&str] = &[
     "base_color",
@@ -14,28 +23,39 @@ pub(super) const TAKES: &[&str] = &[
     "anisotropic",
     "metallic",
     "spec_trans",
+    "spec_tint",
     "eta",
     "specular",
     "sheen",
+    "sheen_tint",
+    "flatness",
     "clearcoat",
     "clearcoat_gloss",
 ];
 /// Parameters of `principledthin`.
-pub(super) const THIN: &[&str] =
-    &["base_color", "roughness", "anisotropic", "spec_trans", "eta", "sheen", "diff_trans"];
-/// What ours has not.
-pub(super) const LACKS: &[&str] = &[
+pub(super) const THIN: &[&str] = &[
+    "base_color",
+    "roughness",
+    "anisotropic",
+    "spec_trans",
     "spec_tint",
+    "eta",
+    "sheen",
     "sheen_tint",
     "flatness",
+    "diff_trans",
+];
+/// How often Mitsuba takes which part of them: nothing that is seen.
+pub(super) const LACKS: &[&str] = &[
     "main_specular_sampling_rate",
     "clearcoat_sampling_rate",
     "diffuse_reflectance_sampling_rate",
-    "spec_reflect_sampling_rate",
-    "spec_trans_sampling_rate",
-    "diff_trans_sampling_rate",
-    "diffuse_sampling_rate",
+    "diffuse_transmittance_sampling_rate",
+    "specular_reflectance_sampling_rate",
+    "specular_transmittance_sampling_rate",
 ];
+/// The index that transmits where 1 is given, as in Mitsuba.
+const NEARLY_ONE: f64 = 1.001;
 
 /// Whether light gets through.
 pub(super) fn transmits(object: &Object) -> bool {
@@ -45,65 +65,45 @@ pub(super) fn transmits(object: &Object) -> bool {
 
 pub(super) fn solid(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
     let mut params = common(world, object);
-    params = world.number(params, object, ("metallic", "metallic"));
-    params = world.number(params, object, ("clearcoat", "clearcoat"));
-    if object.children.iter().any(|c| c.name == "clearcoat_gloss") {
-        world.once(object.at, "principled: \"clearcoat_gloss\" must be a number; 0 is used".to_owned());
-    }
-    // Burley: the alpha of the coat falls from 0.1 to 0.001 as it gets glossy.
-    let gloss = object.number_or("clearcoat_gloss", 0.0, world.said);
-    params = params.float("clearcoatroughness", (0.1 + gloss * (0.001 - 0.1)).max(0.0).sqrt() as f32);
-    // Above 0: what gets through is refracted. The length has no effect, as nothing is absorbed.
-    Some(("principled", if transmits(object) { params.float("thickness", 1.0) } else { params }))
-}
-
-pub(super) fn thin(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
-    let params = common(world, object);
-    if object.children.iter().any(|c| c.name == "diff_trans") {
-        let message = "principledthin: \"diff_trans\" goes from 0 to 2 and is cut at 1 as a texture";
-        world.once(object.at, message.to_owned());
-        return Some(("principled", world.number(params, object, ("diff_trans", "diffusetransmission"))));
-    }
-    let share = object.number_or("diff_trans", 0.0, world.said) / 2.0;
-    Some(("principled", params.float("diffusetransmission", share.clamp(0.0, 1.0) as f32)))
-}
-
-fn common(world: &mut World<'_>, object: &Object) -> Params {
-    let message = format!("{}: drawn by glTF's formulas for metal, roughness, sheen and coat", object.plugin);
-    world.once(object.at, message);
-    let given = |name: &str| object.get(name).is_some() || object.children.iter().any(|c| c.name == name);
-    let mut params = Params::new();
-    params = if given("base_color") {
-        world.color(params, object, ("base_color", "basecolor"))
-    } else {
-        params.rgb("basecolor", [0.5; 3])
-    };
-    for names in [("roughness", "roughness"), ("anisotropic", "anisotropy"), ("spec_trans", "transmission")] {
+    for names in [("metallic", "metallic"), ("clearcoat", "clearcoat"), ("clearcoat_gloss", "clearcoatgloss")]
+    {
         params = world.number(params, object, names);
     }
-    let eta = match (object.number("eta", world.said), object.number("specular", world.said)) {
-        (Some(eta), _) => eta,
-        (None, specular) => {
-            if object.children.iter().any(|c| c.name == "specular") {
-                world.once(object.at, "principled: \"specular\" must be a number; 0.5 is used".to_owned());
-            }
+    let specular = number(world, object, "specular");
+    let eta = match number(world, object, "eta") {
+        Some(_) if specular.is_some() => {
+            world.said.error(object.at, "\"eta\" and \"specular\" say the same: only one may be given");
+            return None;
+        }
+        Some(eta) => eta,
+        None => {
             // The index that reflects 8 % of this at normal incidence.
             let root = (0.08 * specular.unwrap_or(0.5).clamp(0.0, 1.0)).sqrt();
             2.0 / (1.0 - root) - 1.0
         }
     };
-    params = params.float("eta", eta as f32);
-    match object.number("sheen", world.said) {
-        Some(sheen) => {
-            params.rgb("sheencolor", [sheen.clamp(0.0, 1.0) as f32; 3]).float("sheenroughness", 0.5)
-        }
-        None => {
-            if let Some(texture) = world.named(object, "sheen")
-                && let Some(name) = super::texture::name(world, &texture, durer_scene::TextureValue::Color)
-            {
-                params = params.texture("sheencolor", &name).float("sheenroughness", 0.5);
-            }
-            params
-        }
+    let eta = if transmits(object) && eta == 1.0 { NEARLY_ONE } else { eta };
+    Some(("disney", params.float("eta", eta as f32)))
+}
+
+pub(super) fn thin(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
+    let params = common(world, object).bool("thin", true);
+    let params = world.number(params, object, ("diff_trans", "difftrans"));
+    let eta = number(world, object, "eta").unwrap_or(1.5);
+    Some(("disney", params.float("eta", eta as f32)))
+}
+
+/// A number that must be the same everywhere.
+fn number(world: &mut World<'_>, object: &Object, name: &str) -> Option<f64> {
+    if object.children.iter().any(|c| c.name == name) {
+        let message =
+            format!("{}: \"{name}\" is the same everywhere here: its default is used", object.plugin);
+        world.once(object.at, message);
     }
+    object.number(name, world.said)
+}
+
+fn common(world: &mut World<'_>, object: &Object) -> Params {
+    let params = world.color(Params::new(), object, ("base_color", "color"));
+    COMMON.into_iter().fold(params, |params, names| world.number(params, object, names))
 }

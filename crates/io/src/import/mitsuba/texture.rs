@@ -168,8 +168,10 @@ fn checkerboard(
     let params = [("uscale", a), ("vscale", f), ("udelta", c), ("vdelta", g)]
         .into_iter()
         .fold(Params::new().string("filter", "none"), |p, (name, v)| p.float(name, 2.0 * v as f32));
-    let params = part(world, params, object, ("color0", "tex1"), (0.4, value));
-    Some(("checkerboard", part(world, params, object, ("color1", "tex2"), (0.2, value))))
+    // Of numbers Mitsuba exchanges the two (`eval_1` in its checkerboard.cpp), of colours it does not.
+    let (first, second) = if value == TextureValue::Float { ("tex2", "tex1") } else { ("tex1", "tex2") };
+    let params = part(world, params, object, ("color0", first), (0.4, value));
+    Some(("checkerboard", part(world, params, object, ("color1", second), (0.2, value))))
 }
 
 fn constant(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<(&'static str, Params)> {

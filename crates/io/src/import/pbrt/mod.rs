@@ -13,6 +13,7 @@ mod directive;
 mod files;
 mod film;
 mod input;
+mod integrator;
 mod keys;
 mod lexer;
 mod media;

@@ -16,7 +16,6 @@ const KINDS: &[(&str, &str, &str)] = &[
     ("material", "translucent", "\"diffusetransmission\""),
     ("material", "fourier", "\"measured\""),
     ("material", "kdsubsurface", "\"subsurface\""),
-    ("material", "disney", "nothing of the kind; durer's \"principled\" is near it"),
     ("sampler", "lowdiscrepancy", "\"paddedsobol\""),
     ("sampler", "02sequence", "\"paddedsobol\""),
     ("sampler", "maxmindist", "\"pmj02bn\""),

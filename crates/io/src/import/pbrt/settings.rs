@@ -5,6 +5,7 @@ use super::{
     color_space::{COLOR_SPACES, ColorSpace},
     film,
     input::Reported,
+    integrator,
     lexer::Token,
     params::stored,
     parser::Parser,
@@ -95,7 +96,7 @@ impl Parser<'_> {
     pub(super) fn integrator(&mut self, head: Token) -> Result<(), Reported> {
         let node = self.node(head, "a kind of integrator")?;
         self.only("Integrator", self.world.desc.integrator.is_some(), head);
-        self.world.desc.integrator = Some(node);
+        self.world.desc.integrator = Some(integrator::mapped(node, self.input.diagnostics));
         Ok(())
     }
 

@@ -66,6 +66,7 @@ struct Cell {
 }
 
 /// Cells of one size, in rows.
+#[derive(Debug)]
 struct Level {
     columns: u32,
     /// Roughly the angle across a cell.
@@ -74,6 +75,7 @@ struct Level {
 }
 
 /// All cells, the finest first.
+#[derive(Debug)]
 pub(super) struct Pyramid {
     levels: Vec<Level>,
 }

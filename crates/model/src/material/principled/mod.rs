@@ -20,10 +20,12 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::ggx_gain, share, share_input};
+use super::{Arriving, GlossRays, Material, Sent, normal_map, sent::facet_gain, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bounced, Bsdf, Glossy, Interface, Lobe, Matte, SMOOTH, Sheet, Under, normal_reflectance},
+    bsdf::{
+        Bounced, Bsdf, Distribution, Glossy, Interface, Lobe, Matte, SMOOTH, Sheet, Under, normal_reflectance,
+    },
     medium::Inside,
     texture::TextureAt,
 };
@@ -344,7 +346,7 @@ impl Material for Principled {
             arriving.gloss == GlossRays::Main && alpha.is_some_and(|alpha| alpha >= Glossy::BLURRED);
         let gain = match alpha {
             Some(alpha) if alpha < SMOOTH => 0.0,
-            alpha => alpha.map_or(f32::INFINITY, ggx_gain),
+            alpha => alpha.map_or(f32::INFINITY, |alpha| facet_gain(alpha, Distribution::Ggx)),
         };
         Sent {
             own: cx.largest_color(&self.emission) * self.strength + arriving.highlight(gain),

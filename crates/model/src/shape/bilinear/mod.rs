@@ -42,16 +42,18 @@ impl Kind for BilinearMesh {
                 "Texture coordinates of each corner; default (0, 0), (1, 0), (0, 1), (1, 1) on every patch.",
             ),
             ParamSpec::new("faceIndices", ParamType::Ints, ParamDefault::Unset, "Numbers for other programs; no effect."),
-            ParamSpec::new("emissionfilename", ParamType::File, ParamDefault::Unset, "Not supported yet."),
+            ParamSpec::new(
+                "emissionfilename",
+                ParamType::Text,
+                ParamDefault::Unset,
+                "Where pbrt looks for light first, for less noise: no effect.",
+            ),
             ALPHA,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         if !args.is_sound() {
             return None;
-        }
-        if args.is_set("emissionfilename") {
-            args.warning("emissionfilename", "\"emissionfilename\" is not supported yet and has no effect");
         }
         let points: Vec<Point3> = args.triples("P").into_iter().map(Point3::from).collect();
         let normals: Vec<Normal3> = args.triples("N").into_iter().map(Normal3::from).collect();
