@@ -32,10 +32,10 @@ impl Integrator for Wrong {
     fn eye_samples(&self, asked: u32) -> EyeSamples {
         self.inner.eye_samples(asked)
     }
-    fn sample(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution) {
+    fn sample(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution) {
         self.inner.sample(&self.cx(cx), ray, out);
     }
-    fn record(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
+    fn record(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, recorder: &mut Recorder<'_>) {
         self.inner.record(&self.cx(cx), ray, out, recorder);
     }
     fn replay(
@@ -47,7 +47,7 @@ impl Integrator for Wrong {
     ) {
         self.inner.replay(&self.cx(cx), node, out, recorder);
     }
-    fn count(&self, cx: &SampleCx<'_>, ray: PathRay, out: &mut Contribution, counters: &mut Counters) {
+    fn count(&self, cx: &SampleCx<'_>, ray: &PathRay, out: &mut Contribution, counters: &mut Counters) {
         self.inner.count(&self.cx(cx), ray, out, counters);
     }
 }
