@@ -3,7 +3,7 @@ mod assets_shared;
 
 use assets_shared::{files, folder};
 use durer_io::import::{Imported, open};
-use durer_scene::{Assets, Limits, Location, SceneDesc, Severity, ShapeSource};
+use durer_scene::{Assets, Limits, Location, SceneDesc, ShapeSource};
 use std::{path::Path, time::Instant};
 
 fn triangles(desc: &SceneDesc) -> usize {
@@ -36,13 +36,6 @@ fn real_files_import_with_the_triangle_counts_of_the_table() {
         let started = Instant::now();
         let imported = open(&shared.join(&file), Limits::default());
         let time = started.elapsed();
-        if file.contains("Draco") {
-            let refusal =
-                imported.diagnostics.iter().find(|d| d.severity == Severity::Error).expect("an error");
-            assert!(refusal.message.contains("KHR_draco_mesh_compression"), "{}", refusal.message);
-            assert!(refusal.hint.as_deref().is_some_and(|h| h.contains("gltf-transform")));
-            continue;
-        }
         assert!(!imported.diagnostics.has_errors(), "{file}: {}", complaints(&imported));
         let desc = &imported.desc;
         println!(

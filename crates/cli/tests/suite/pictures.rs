@@ -125,13 +125,14 @@ fn a_picture_tells_how_it_was_made() {
 
 #[test]
 fn an_integrator_that_stands_in_is_named_as_what_it_is() {
-    let place = Place::new().with("mlt.pbrt", &format!("Integrator \"mlt\"\n{SPHERE}"));
-    let ran = place.done("render mlt.pbrt --spp 1");
-    assert!(
-        ran.stderr.contains("not supported yet") && ran.stderr.contains("1 spp, path;"),
-        "{}",
-        ran.stderr
-    );
+    for (word, said, ours) in
+        [("function", "not supported yet", "path"), ("mlt", "without mutations", "bdpt")]
+    {
+        let place = Place::new().with("a.pbrt", &format!("Integrator \"{word}\"\n{SPHERE}"));
+        let ran = place.done("render a.pbrt --spp 1");
+        let named = ran.stderr.contains(&format!("1 spp, {ours};"));
+        assert!(ran.stderr.contains(said) && named, "{}", ran.stderr);
+    }
 }
 
 /// A ball of radius 1 before a camera 4 m away, without a light.

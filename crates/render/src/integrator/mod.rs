@@ -248,4 +248,4 @@ const ROULETTE_DEPTH: ParamSpec = ParamSpec::new(
 .range(0.0, 10_000.0);
 
 /// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] = &["function", "mlt", "randomwalk", "simplepath", "simplevolpath"];
+pub const NOT_YET: &[&str] = &["function"];
