@@ -112,7 +112,7 @@ mod tests {
                     let seen =
                         facets.over_normals(400, |h| wo.dot(h).max(0.0) / h.z) / (1.0 + facets.lambda(mu));
                     // Sums miss some of the long tail of GGX.
-                    let most = if facets.like == Like::Ggx { 0.02 } else { 4e-3 };
+                    let most = if matches!(facets.like, Like::Ggx) { 0.02 } else { 4e-3 };
                     assert!((seen / mu - 1.0).abs() < most, "{facets:?} {mu}: {seen}");
                 }
             }
