@@ -4,24 +4,14 @@
 mod obvhs;
 mod scene_run;
 
-use std::{env, process::ExitCode};
+use std::env;
 
 use anyhow::ensure;
 use durer_benches::{embree::Embree, load, options::Options, pin, report::Report};
 
 use crate::scene_run::SceneRun;
 
-fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run() -> anyhow::Result<()> {
+fn main() -> anyhow::Result<()> {
     let options = Options::parse(env::args().skip(1))?;
     ensure!(!options.isas.is_empty(), "this machine has none of the instruction sets asked for");
     let mut report = Report { edge: options.edge, runs: options.runs, ..Report::default() };

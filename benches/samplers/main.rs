@@ -7,7 +7,7 @@ mod chart;
 mod noise;
 mod picture;
 
-use std::{env, fs, process::ExitCode};
+use std::{env, fs};
 
 use anyhow::{Context, bail};
 use durer::sampling::SamplerKind;
@@ -31,16 +31,6 @@ pub(crate) const KINDS: [SamplerKind; 6] = [
 /// Samples per pixel, and how many pictures of each kind are taken with as many.
 const COUNTS: [(u32, u32); 6] = [(1, 8), (4, 8), (16, 8), (64, 4), (256, 4), (1024, 2)];
 
-fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
 /// What was measured of a kind in a scene.
 pub(crate) struct Measured {
     /// The kind.
@@ -49,7 +39,7 @@ pub(crate) struct Measured {
     pub(crate) noise: Vec<(u32, Noise)>,
 }
 
-fn run() -> anyhow::Result<()> {
+fn main() -> anyhow::Result<()> {
     // Cargo adds `--bench` if it starts this itself.
     let words: Vec<String> = env::args().skip(1).filter(|word| word != "--bench").collect();
     let (mut most, mut chart) = (u32::MAX, None);

@@ -5,7 +5,7 @@
 mod pixels;
 mod recording;
 
-use std::{env, process::ExitCode, time::Instant};
+use std::{env, time::Instant};
 
 use anyhow::{Context, bail};
 use durer::{Options, open, prepare, tree::Subject};
@@ -18,17 +18,7 @@ const SAMPLES: u32 = 16;
 /// How many pixels are recorded.
 const PIXELS: usize = 50;
 
-fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run() -> anyhow::Result<()> {
+fn main() -> anyhow::Result<()> {
     // Cargo adds `--bench` if it starts this itself.
     let words: Vec<String> = env::args().skip(1).filter(|word| word != "--bench").collect();
     let [scene, integrator] = words.as_slice() else {
