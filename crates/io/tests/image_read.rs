@@ -224,9 +224,9 @@ fn pictures_packed_for_graphics_cards_are_read() {
 
 #[test]
 fn damaged_packed_pictures_are_refused_or_other_pictures() {
+    let limits = Limits { image_pixels: 1 << 16, ..Limits::default() };
     for text in [ETC1S, UASTC] {
         let bytes = STANDARD.decode(text).expect("base64");
-        let limits = Limits { image_pixels: 1 << 16, ..Limits::default() };
         for place in 0..bytes.len() {
             assert!(read(&bytes[..place], "a.ktx2", limits).is_err(), "{place}");
             for bit in 0..8 {
@@ -235,6 +235,13 @@ fn damaged_packed_pictures_are_refused_or_other_pictures() {
                 let _ = read(&bytes, "a.ktx2", limits);
             }
         }
+    }
+    // Found by fuzzing: a level whose end is beyond all numbers; and what levels share.
+    for (text, length) in [(UASTC, 88), (ETC1S, 72)] {
+        let mut bytes = STANDARD.decode(text).expect("base64");
+        bytes[length..length + 8].fill(0xff);
+        let error = read(&bytes, "a.ktx2", limits).expect_err("damaged").to_string();
+        assert!(error.contains("damaged KTX 2 file"), "{error}");
     }
     let mut bytes = STANDARD.decode(ETC1S).expect("base64");
     bytes[12] = 43;

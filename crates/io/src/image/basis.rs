@@ -7,6 +7,8 @@ use super::source::Source;
 const KTX: &str = "KTX 2 file";
 /// The fixed part of a header.
 const HEADER: usize = 80;
+/// Where a header tells of what all levels share.
+const SHARED: usize = 64;
 /// Bytes by which a header tells of a level.
 const LEVEL: usize = 24;
 /// Pixels along an edge of a block, and the most bytes of one.
@@ -53,16 +55,23 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     Ok(Image { width, height, channels, data: ImageData::U8(bytes) })
 }
 
-/// Whether no level of a picture promises more than its blocks take: the decoder allocates that on its word.
+/// Whether all levels lie in the file, and none promises more than its blocks take: the decoder adds and allocates on their
+/// word.
 fn has_sound_levels(source: &Source<'_>, size: [u32; 2], levels: u32) -> bool {
     let number = |offset: usize| {
         let bytes = source.bytes.get(offset..).and_then(<[u8]>::first_chunk);
         bytes.map(|b| u64::from_le_bytes(*b))
     };
-    let is_sound = |level: u32| {
-        let blocks = size.map(|edge| u64::from((edge >> level).max(1).div_ceil(BLOCK_EDGE)));
-        let unpacked = number(HEADER + LEVEL * level as usize + 16);
-        unpacked.is_some_and(|bytes| bytes <= blocks[0] * blocks[1] * BLOCK_BYTES)
+    let lies_in = |begin: Option<u64>, length: Option<u64>| {
+        let end = begin.zip(length).and_then(|(begin, length)| begin.checked_add(length));
+        end.is_some_and(|end| end <= source.bytes.len() as u64)
     };
-    levels <= 32 && (0..levels.max(1)).all(is_sound)
+    let is_sound = |level: u32| {
+        let at = HEADER + LEVEL * level as usize;
+        let blocks = size.map(|edge| u64::from((edge >> level).max(1).div_ceil(BLOCK_EDGE)));
+        let fits = number(at + 16).is_some_and(|bytes| bytes <= blocks[0] * blocks[1] * BLOCK_BYTES);
+        fits && lies_in(number(at), number(at + 8))
+    };
+    let shared = lies_in(number(SHARED), number(SHARED + 8));
+    shared && levels <= 32 && (0..levels.max(1)).all(is_sound)
 }
