@@ -1,4 +1,6 @@
 //! KTX 2 files whose pixels Basis Universal packed for graphics cards: what glTF's KHR_texture_basisu brings.
+use std::panic::catch_unwind;
+
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use durer_scene::{AssetError, Image, ImageData};
 
@@ -38,21 +40,38 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     if !has_sound_levels(source, [width, height], number(40)) {
         return Err(damaged());
     }
-    let packed = Transcoder::new(source.bytes).map_err(|_| damaged())?;
-    match packed.source_format() {
-        SourceFormat::Etc1s | SourceFormat::UastcLdr if !packed.is_video() => {}
-        _ => return refused("of a rare kind"),
-    }
-    if packed.base_dimensions() != (width, height) {
-        return Err(damaged());
-    }
-    let rgba = packed.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(|_| damaged())?;
+    // Damaged pixels make the decoder panic, as fuzzing shows: what it had in hand is gone with it.
+    let (has_alpha, rgba) = match catch_unwind(|| unpacked(source.bytes, (width, height))) {
+        Ok(Ok(unpacked)) => unpacked,
+        Ok(Err(Refused::Kind)) => return refused("of a rare kind"),
+        Ok(Err(Refused::Damage)) | Err(_) => return Err(damaged()),
+    };
     let (pixels, _) = rgba.as_chunks::<4>();
-    let (channels, bytes) = match packed.has_alpha() {
+    let (channels, bytes) = match has_alpha {
         true => (4, rgba),
         false => (3, pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()),
     };
     Ok(Image { width, height, channels, data: ImageData::U8(bytes) })
+}
+
+/// Why a file gives no pixels.
+enum Refused {
+    Kind,
+    Damage,
+}
+
+/// Whether there is alpha, and the pixels with it.
+fn unpacked(bytes: &[u8], size: (u32, u32)) -> Result<(bool, Vec<u8>), Refused> {
+    let packed = Transcoder::new(bytes).map_err(|_| Refused::Damage)?;
+    match packed.source_format() {
+        SourceFormat::Etc1s | SourceFormat::UastcLdr if !packed.is_video() => {}
+        _ => return Err(Refused::Kind),
+    }
+    if packed.base_dimensions() != size {
+        return Err(Refused::Damage);
+    }
+    let rgba = packed.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(|_| Refused::Damage)?;
+    Ok((packed.has_alpha(), rgba))
 }
 
 /// Whether all levels lie in the file, and none promises more than its blocks take: the decoder adds and allocates on their
