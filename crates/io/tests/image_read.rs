@@ -253,6 +253,21 @@ fn damaged_packed_pictures_are_refused_or_other_pictures() {
     assert!(error.contains("more than one picture"), "{error}");
 }
 
+/// On these the decoder of Basis Universal panics, as fuzzing found.
+const PANICS: [&str; 2] = [
+    "q0tUWCAyMLsNChoKAAAAAAEAAAAQAAAAEAAAAAAAAAAAAAAAAQAAAAEAAAACAAAAaAAAACwAAACUAAAAIwAAAAAAAAAAAAAAAAAAAAAAAAC4AAAAAAAAAI0AAAAAAAAAAAEAAAAAAAAsAAAAAAAAAAIAKACmAQIAAwMAAAAAAAAAAAAAAAB/AwAAAAAAAAAABwD//x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDEuMX4AACi1L/1gAAAdBADEBQBQiQAAAAAAfwMAAAAA/wADAwAAAAAAAAAAAAAAAD8AAAAAAAAAAAD/////HwAAAEtUWHeOlouajf+9nnNpcyBVbml2ZXJzYWwgMC4xNgAAHgARAFcAAgAoAKYBAgADAwAAAAAAAAAALgAAABQAAAAAAAAAAAAAAAfAzzMYZQb0eHNXGwuX",
+    "q0tUWCAyMLsNChoKAAAAAAEAAAAWBgAAEQAAAAAAAAAAAAAAAQAAAAEAAAABAAAAaAAAACwAAACUAAAAJAAAALgAAAAAAAAA5gAAAAAAAACeAQAAAAAAABQAAAAAAAAAAAAAAAAAAAAsAAAAAAAAAAIAKACjAQIAAwMAAAAAAAAAAAAAAAA/AAAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDAuMTYAAB4AEQBXAAAAMwAAADQAAAAAAAAAAAAAgAAAAAAUAAAAAAAAAAAAAAAHwBQAAAAAQBBkg0CAKAACAADCsAk/ljcFoyDA5AABAAZhAHhSC/llBBGAKQAAAACCMGwYvO0ca08qHBt5ob2kD8GHdKG9pA/DQrpoH+nCWMoWnfG+MB6IB+YEEMAwCADA5+jIUCkI6ICEOKq1mIiPAFSp/g9sXkOz7gRJgGd8S4CxOfzd3VVVmZkBwUQAAAAAAADyX41AMAEAAAAAgAAgBbwNFABgEEgecTNkgxSChTiDA8AEgAAAAAAAQiAAxHml/////////wAOIy2meMp11xc=",
+];
+
+#[test]
+fn a_decoder_that_panics_ends_with_a_message() {
+    for text in PANICS {
+        let bytes = STANDARD.decode(text).expect("base64");
+        let error = read(&bytes, "a.ktx2", Limits::default()).expect_err("damaged").to_string();
+        assert!(error.contains("damaged KTX 2 file"), "{error}");
+    }
+}
+
 #[test]
 fn other_formats_are_refused_by_name() {
     let cases: [(&[u8], &str, &str); 4] = [
