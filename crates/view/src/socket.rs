@@ -10,7 +10,10 @@ use std::{
 use futures_util::{SinkExt, StreamExt};
 use hyper::{HeaderMap, header, upgrade::Upgraded};
 use hyper_util::rt::TokioIo;
-use tokio::sync::{mpsc, watch};
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt},
+    sync::{mpsc, watch},
+};
 use tokio_tungstenite::{
     WebSocketStream,
     tungstenite::{
@@ -30,6 +33,8 @@ use crate::{
 const LONGEST: usize = 1 << 20;
 /// How long a page may take to read what waits for it.
 const PATIENCE: Duration = Duration::from_secs(30);
+/// How long a page may take to hang up once it was told why.
+const FAREWELL: Duration = Duration::from_millis(500);
 
 type Stream = WebSocketStream<TokioIo<Upgraded>>;
 
@@ -110,7 +115,21 @@ pub(crate) async fn run(
         && let Ok(mut stream) = sink.reunite(packets)
     {
         let close = CloseFrame { code: CloseCode::from(code), reason: reason.into() };
-        let _ = tokio::time::timeout(Duration::from_millis(200), stream.close(Some(close))).await;
+        let farewell = async {
+            if stream.close(Some(close)).await.is_ok() {
+                drain(stream.get_mut()).await;
+            }
+        };
+        let _ = tokio::time::timeout(FAREWELL, farewell).await;
+    }
+}
+
+/// Reads what still comes until the page hangs up: a socket dropped with unread bytes is reset by the system, and a
+/// reset takes the reason away from a page that has not read it yet (RFC 7230, 6.6, tells the same of HTTP).
+async fn drain(raw: &mut TokioIo<Upgraded>) {
+    let mut waste = vec![0; 1 << 14];
+    if raw.shutdown().await.is_ok() {
+        while raw.read(&mut waste).await.is_ok_and(|count| count > 0) {}
     }
 }
 
