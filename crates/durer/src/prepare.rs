@@ -271,6 +271,13 @@ fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut
             diagnostics.warning(Location::None, message);
         }
     }
+    for (volume, name) in scene.volumes.iter().zip(&*scene.volume_names) {
+        if are_all && !volume.is_dark() {
+            let message =
+                format!("medium \"{name}\" sends no particles: what it lights by glowing stays dark");
+            diagnostics.warning(Location::None, message).hint("take \"bdpt\" or \"volpath\"");
+        }
+    }
     let is_far = |light: &dyn Light| light.is_emitter() && (light.surrounds() || light.bounds().is_none());
     if particles != Particles::Some && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light))
     {
