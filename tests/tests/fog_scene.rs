@@ -42,7 +42,9 @@ fn each_lantern_is_left_by_its_distance() {
 
 #[test]
 fn integrators_that_see_no_media_name_those_they_leave_out() {
-    for (integrator, says) in [("light", true), ("bdpt", true), ("sppm", true), ("volpath", false)] {
+    for (integrator, says) in
+        [("path", true), ("light", false), ("bdpt", false), ("sppm", true), ("volpath", false)]
+    {
         let mut imported = builtin::find("fog").expect("built in").import();
         let options = Options { integrator: Some(integrator.to_owned()), ..Options::default() };
         assert!(durer::prepare(&mut imported, &options).is_some());
@@ -50,5 +52,23 @@ fn integrators_that_see_no_media_name_those_they_leave_out() {
         let said =
             all.any(|d| d.message.contains("does not see the medium") && d.message.contains("\"haze\""));
         assert_eq!(said, says, "{integrator}");
+    }
+}
+
+#[test]
+fn light_tracing_says_what_glows_without_particles() {
+    for (integrator, says) in [("light", true), ("bdpt", false), ("volpath", false)] {
+        let text = format!(
+            "Integrator \"{integrator}\"\nWorldBegin\nLightSource \"point\"\n\
+             MakeNamedMedium \"fire\" \"string type\" \"homogeneous\" \"rgb Le\" [1 1 1]\n\
+             MakeNamedMedium \"ash\" \"string type\" \"homogeneous\"\n\
+             Material \"interface\" MediumInterface \"fire\" \"\" Shape \"sphere\""
+        );
+        let mut imported = durer_tests::import(&text);
+        assert!(durer::prepare(&mut imported, &Options::default()).is_some());
+        let all = imported.diagnostics.iter();
+        let said: Vec<_> = all.filter(|d| d.message.contains("sends no particles")).collect();
+        assert_eq!(said.len(), usize::from(says), "{integrator}: {said:?}");
+        assert!(said.iter().all(|d| d.message.contains("\"fire\"")), "{said:?}");
     }
 }

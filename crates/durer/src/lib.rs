@@ -20,6 +20,7 @@ mod environment;
 pub mod explain;
 mod glb;
 mod options;
+mod particles;
 pub mod picture;
 mod prepare;
 mod sequence;

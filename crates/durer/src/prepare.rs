@@ -8,18 +8,18 @@ use durer_core::{
     spectrum::{Basis, Carried},
 };
 use durer_io::import::Imported;
-use durer_model::{filter::Filter, light::Light};
+use durer_model::filter::Filter;
 use durer_render::{
     Object, Scene,
     compile::{self, CompileOptions},
     drive::{Antialias, Job, Nesting, Passes, Settings},
     film::Tile,
-    integrator::{Integrator, Output, Particles, Show},
+    integrator::{Integrator, Output, Show},
 };
 use durer_scene::{Data, Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{
-    Options, environment,
+    Options, environment, particles,
     transport::{integrator_node, registered_word, rules},
 };
 
@@ -122,7 +122,7 @@ pub(crate) fn prepared(
     let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
     let carried = options.carried.unwrap_or(of_film);
     check_antialias(options, &scene, (&*integrator, carried), diagnostics);
-    check_particles(&scene, &*integrator, diagnostics)?;
+    particles::check(&scene, &*integrator, diagnostics)?;
     check_walks(&scene, &*integrator, integrator_node, diagnostics);
     let settings = Settings {
         samples: eye.total,
@@ -231,56 +231,6 @@ fn check_antialias(
                        supersampling suits blurred pictures better";
         diagnostics.note(Location::None, message);
     }
-}
-
-/// Says what particles from the lights cannot bring; `None` if they are all there is and the camera sees none of them.
-fn check_particles(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mut Diagnostics) -> Option<()> {
-    let particles = integrator.facts().particles;
-    if particles == Particles::None {
-        return Some(());
-    }
-    let are_all = particles == Particles::All;
-    if particles == Particles::Gathered {
-        if scene.view.shutter.is_rolling() {
-            let message = "integrator \"sppm\" cannot take this picture: with a rolling shutter each row has a moment of its \
-                           own, and photons lie where things are at one";
-            diagnostics.error(Location::None, message).hint("take \"bdpt\" or \"path\"");
-            return None;
-        }
-    } else if !scene.view.is_connectible() {
-        let why = match scene.view.shutter.is_rolling() {
-            true => "with a rolling shutter the row that sees it has a moment of its own",
-            false => "no light can be traced to a camera of this kind",
-        };
-        if are_all {
-            let message = format!("integrator \"light\" cannot take this picture: {why}");
-            diagnostics.error(Location::None, message).hint("take \"bdpt\" or \"path\"");
-            return None;
-        }
-        diagnostics.note(Location::None, format!("particles are not joined to the camera: {why}"));
-    }
-    let what = match particles {
-        Particles::All => "what it lights stays dark",
-        Particles::Gathered => "only its straight light is found",
-        Particles::None | Particles::Some => "it is only found from the eye",
-    };
-    for (light, name) in scene.lights.iter().zip(&*scene.light_names) {
-        if light.is_sampled() && !light.is_emitter() {
-            let message =
-                format!("light \"{name}\" sends no particles, as it does not fade with distance: {what}");
-            diagnostics.warning(Location::None, message);
-        }
-    }
-    let is_far = |light: &dyn Light| light.is_emitter() && (light.surrounds() || light.bounds().is_none());
-    if particles != Particles::Some && scene.is_endless() && scene.lights.iter().any(|light| is_far(&**light))
-    {
-        let message = format!(
-            "particles from far away reach no further than {} m around what has an end: a plane is dark beyond",
-            scene.extent.radius
-        );
-        diagnostics.warning(Location::None, message).hint("give the plane an edge, or take \"bdpt\"");
-    }
-    Some(())
 }
 
 /// Says what is drawn as a matte body because the integrator does not follow light below its surface.

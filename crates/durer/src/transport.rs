@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 
 use durer_render::{
     compile,
-    integrator::{INTEGRATORS, PATHS},
+    integrator::{HEED_MEDIA, INTEGRATORS, PATHS},
 };
 use durer_scene::{Data, Diagnostics, Location, Node, Param, ParamDefault, ParamSpec, SceneDesc, ValueType};
 
@@ -72,11 +72,11 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
         node = other;
     }
     node = with_usual_depth(desc, node);
-    if !desc.media.is_empty() && registered_word(&node.kind) != "volpath" {
+    if !desc.media.is_empty() && !HEED_MEDIA.contains(&registered_word(&node.kind).as_str()) {
         let names: Vec<_> = desc.media.iter().map(|medium| format!("\"{}\"", medium.name)).collect();
         let message =
             format!("the integrator \"{}\" does not see the medium {}", node.kind, names.join(", "));
-        diagnostics.warning(node.at.clone(), message).hint("--integrator volpath heeds media");
+        diagnostics.warning(node.at.clone(), message).hint("--integrator volpath, bdpt and light heed media");
     }
     let takes = INTEGRATORS.iter().find(|e| e.answers_to(&node.kind)).map_or(&[][..], |e| e.schema.params);
     for (wish, name, ty, data) in wishes(options) {

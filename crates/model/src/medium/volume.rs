@@ -143,7 +143,7 @@ impl Volume {
     }
 
     /// True if it sends out nothing.
-    pub(super) fn is_dark(&self) -> bool {
+    pub fn is_dark(&self) -> bool {
         self.glow.is_dark()
     }
 

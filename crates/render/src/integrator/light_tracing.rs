@@ -3,15 +3,16 @@
 //! A particle's power `P` at a point of the scene that the camera sees in direction `d` adds
 //! `P f |wo n_s| / |wo n_g| |d n_g| I` to the picture at the point's place, with the camera's importance `I` there (Veach
 //! 1997, section 8.3.2; Dutré, Lafortune and Willems 1993). Caustics are found where paths from the eye look for them in
-//! vain. What is seen in a mirror or through glass is not: nothing can be connected there. Lights themselves, and the sky,
-//! are seen by eye rays.
+//! vain. What is seen in a mirror or through glass is not: nothing can be connected there. Lights themselves, the sky, and
+//! what glows in media are seen by eye rays. In media there are no cosines: a particle there adds `P f I`, with what is left
+//! on the way to the camera; nothing is sent by what glows.
 use durer_core::spectrum::Spectrum;
 use durer_scene::{Args, Kind, Schema};
 
 use super::{
     Integrator, PATH_DEPTH, Particles, ROULETTE_DEPTH, Start, Transport,
     vertices::{Stamina, straight_on},
-    walk::{Rules, Walk},
+    walk::{Rules, Walk, span},
 };
 use crate::{
     Contribution, PathRay, SampleCx, Value,
@@ -30,8 +31,8 @@ impl Kind for LightTracing {
     const SCHEMA: Schema = Schema {
         name: "light",
         aliases: &["lightpath"],
-        doc: "Light tracing: particles from the lights, seen by the camera where they are scattered. Good at caustics; shows \
-              nothing in mirrors and through glass.",
+        doc: "Light tracing: particles from the lights, seen by the camera where surfaces and media scatter them. Good at \
+              caustics; shows nothing in mirrors and through glass.",
         params: &[PATH_DEPTH, ROULETTE_DEPTH],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
@@ -55,7 +56,7 @@ impl Transport for LightTracing {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let mut walk = Walk::new(&self.rules, cx, probe);
+        let mut walk = Walk::in_media(&self.rules, cx, probe);
         let (ray, kind, is_eye) = match start {
             Start::Eye(ray) => (PathRay { media: cx.scene.start, ..*ray }, RayKind::Eye, true),
             Start::Again(node) => (node.path, node.kind, false),
@@ -76,7 +77,7 @@ impl Transport for LightTracing {
     }
 }
 
-/// What an eye ray sees of lights themselves.
+/// What an eye ray sees of lights themselves, and of what glows on the way.
 fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, id: P::Id) -> Spectrum {
     if let Some(reason) = walk.reason_to_stop(&ray) {
         walk.probe.stop(id, reason, ray.throughput);
@@ -84,38 +85,50 @@ fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, id: P::Id) -> Spectr
         return Spectrum::BLACK;
     }
     walk.rays += 1;
-    let Some(hit) = walk.cx.scene.closest(walk.cx, &ray.ray, walk.probe, id) else {
-        let left = walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY);
-        let far = walk
-            .cx
-            .scene
-            .far
-            .iter()
-            .map(|&light| walk.cx.scene.lights[light as usize].escaped(walk.cx.basis, ray.ray.d));
-        let sky = left * far.fold(Spectrum::BLACK, |sum, light| sum + light);
+    let cx = walk.cx;
+    let hit = match walk.heeds_media {
+        true => cx.scene.closest_boundary(cx, &ray.ray, walk.probe, id),
+        false => cx.scene.closest(cx, &ray.ray, walk.probe, id),
+    };
+    let (passed, sent) = floated(walk, &ray, hit.map_or(f32::INFINITY, |hit| hit.t), id);
+    let Some(hit) = hit else {
+        let left = walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * passed;
+        let far =
+            cx.scene.far.iter().map(|&light| cx.scene.lights[light as usize].escaped(cx.basis, ray.ray.d));
+        let sky = left * far.fold(Spectrum::BLACK, |sum, light| sum + light) + sent;
         walk.probe.local(id, sky);
         walk.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
         walk.probe.result(id, sky);
         return sky;
     };
-    let met = walk.meet(&mut ray, &hit, |walk, s| walk.probe.surface(id, s.object, &hit, &s.surface));
-    let (emission, weight) = match met {
-        None => (Spectrum::BLACK, ray.weight),
-        Some((s, crossing, left)) => {
-            let emission = left * s.sent_out();
-            walk.probe.local(id, emission);
-            let passed = left * s.bsdf.passed(s.wo_local);
-            if passed.is_black() {
-                walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
-                walk.probe.result(id, emission);
-                return emission;
-            }
-            ray = straight_on(&ray, (&s, &crossing), passed);
-            (emission, passed)
+    let met =
+        walk.meet(&mut ray, (&hit, passed), |walk, s| walk.probe.surface(id, s.object, &hit, &s.surface));
+    let emission = met.as_ref().map_or(sent, |(s, _, left)| *left * s.sent_out() + sent);
+    walk.probe.local(id, emission);
+    if let Some((s, crossing, left)) = met {
+        let passed = left * s.bsdf.passed(s.wo_local);
+        if passed.is_black() {
+            walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
+            walk.probe.result(id, emission);
+            return emission;
         }
-    };
+        ray = straight_on(&ray, (&s, &crossing), passed);
+    }
     let next = walk.probe.ray(id, &ray, RayKind::Passing);
-    let radiance = emission + weight * seen(walk, ray, next);
+    let radiance = emission + ray.weight * seen(walk, ray, next);
     walk.probe.result(id, radiance);
     radiance
+}
+
+/// What floats on the way of a ray to parameter `t` lets pass of what is behind, and sends out.
+fn floated<P: Probe>(walk: &mut Walk<'_, P>, ray: &PathRay, t: f32, id: P::Id) -> (Spectrum, Spectrum) {
+    if !walk.heeds_media {
+        return (Spectrum::ONE, Spectrum::BLACK);
+    }
+    let Some(volume) = walk.volume(&ray.media) else { return (Spectrum::ONE, Spectrum::BLACK) };
+    let flight = walk.see(volume, ray, span(ray.from, &ray.ray, t));
+    if P::RECORDS {
+        walk.report_floating(ray, &flight, id);
+    }
+    (flight.weight, flight.sent)
 }

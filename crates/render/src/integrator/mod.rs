@@ -221,7 +221,10 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
 pub const PATHS: &[&str] = &["path", "volpath", "direct", "light", "bdpt", "sppm"];
 
-/// Bounces of those.
+/// Those that heed media.
+pub const HEED_MEDIA: &[&str] = &["volpath", "light", "bdpt"];
+
+/// Bounces of paths.
 const PATH_DEPTH: ParamSpec = ParamSpec::new(
     "maxdepth",
     ParamType::Int,

@@ -3,12 +3,12 @@ use durer_accel::Hit;
 use durer_core::{
     Id,
     math::{Frame, Point3, Ray, Vector3},
-    sampling::Sampler,
+    sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
 use durer_model::{
     Surface,
-    bsdf::{BranchKind, Bsdf, Seen},
+    bsdf::{BranchKind, Bsdf, Scattered, Seen},
     light::{LightCx, LightHit, LightSample},
     material::Material,
 };
@@ -165,6 +165,28 @@ impl Shading {
     pub(super) fn behind(&self, cx: &SampleCx<'_>, light: usize, sampler: &Sampler) -> Option<LightSample> {
         let asked = LightCx { basis: cx.basis, time: self.time };
         cx.scene.lights[light].sample(&asked, self.surface.p, sampler)
+    }
+
+    /// A direction that is drawn from the lobes, if they send any.
+    pub(super) fn scattered(&self, sampler: &Sampler) -> Option<Scattered> {
+        // PERF: a number that decides nothing is not asked for (bench render).
+        let choice = if self.bsdf.has_choice() { sampler.d1(Dim::Lobe) } else { 0.0 };
+        self.bsdf.scatter(self.wo_local, choice, sampler.d2(Dim::Scatter))
+    }
+
+    /// What of light from `wi` goes to `wo`, as radiance, 1/sr, both in the frame of the lobes; `is_lone` if no path can meet
+    /// what sends it.
+    pub(super) fn radiance(&self, (wo, wi): (Vector3, Vector3), is_lone: bool) -> Spectrum {
+        match is_lone {
+            true => self.bsdf.eval_radiance(wo, wi),
+            false => self.bsdf.eval_with_pdf(wo, wi).0,
+        }
+    }
+
+    /// Density of all lobes together of going on along `to` after coming from `from`, 1/sr; both point away.
+    pub(super) fn pdf(&self, from: Vector3, to: Vector3) -> f32 {
+        let (from, to) = (self.frame.to_local(from), self.frame.to_local(to));
+        self.bsdf.eval_with_pdf(from, to).1
     }
 
     /// Whether a ray that goes on in direction `d` stays on its side of the true surface or goes through.

@@ -18,7 +18,7 @@ use durer_model::{Fill, Hull, Medium};
 use crate::Object;
 pub(crate) use crossing::{Boundary, Crossing};
 pub use imbalances::{ImbalanceTotals, Imbalances};
-pub(crate) use start::{around, start};
+pub(crate) use start::{around, at, start};
 
 /// The media of a scene: equal ones are one.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -66,6 +66,25 @@ pub(crate) fn around(scene: &Scene, ray: &Ray) -> MediumStack {
     stack
 }
 
+/// The bodies that a point is in, and what floats there, as a straight way from the camera comes to know.
+pub(crate) fn at(scene: &Scene, p: Point3, time: f32) -> MediumStack {
+    // Render space begins at the camera.
+    let mut ray = Ray { time, ..Ray::new(Point3::ZERO, (p - Point3::ZERO).normalize()) };
+    let cx = SampleCx { scene, basis: Basis::Rgb };
+    let (d, mut stack) = (ray.d, scene.start);
+    if scene.media.is_empty() || !d.is_finite() {
+        return stack;
+    }
+    for _ in 0..MOST_SURFACES {
+        ray.t_max = (p - ray.o).dot(d).max(0.0);
+        let Some(hit) = scene.closest_boundary(&cx, &ray, &mut NoProbe, ()) else { break };
+        let (object, mut surface) = scene.surface(&ray, &hit);
+        stack = scene.cross(&cx.basis, (object, &mut surface), (-d, time, hit.t), &stack, |_, _| {}).behind;
+        ray = surface.spawn(d, time);
+    }
+    stack
+}
+
 /// One of the rays from the camera, on a spiral from pole to pole that turns by the golden angle.
 fn spiral(scene: &Scene, direction: u32) -> Ray {
     let time = scene.view.shutter.interval().min;

@@ -1,20 +1,22 @@
 //! The eye's walk, and what arrives at each of its vertices.
-use durer_core::{sampling::Dim, spectrum::Spectrum};
+use durer_core::{math::Point3, sampling::Dim, spectrum::Spectrum};
 use durer_model::{
     bsdf::BranchKind,
     light::{LightCx, LightHit, Source},
+    medium::{self, Phase},
 };
 
 use super::{
     super::{
-        shading::LIGHT_BRANCH,
-        vertices::{End, Flight, Particle, SCATTER_BRANCH, Vertex, chosen, kept, scattered_on, straight_on},
+        shading::{LIGHT_BRANCH, Shading},
+        vertices::{End, Flight, Onward, Particle, Place, SCATTER_BRANCH, Vertex, chosen, kept, straight_on},
         walk::{Parts, Walk},
     },
     Bidirectional,
 };
 use crate::{
     Contribution, PathRay, Value,
+    media::Crossing,
     probe::{Choice, ChosenBy, Limit, Probe, RandomNumbers, RayKind, StopReason},
 };
 
@@ -31,9 +33,11 @@ struct Link<Id> {
 pub(super) struct EyeWalk<'a, P: Probe> {
     pub(super) own: &'a Bidirectional,
     pub(super) walk: Walk<'a, P>,
-    pub(super) particle: Option<&'a Particle>,
-    /// Where the eye's walk scattered so far.
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) particle: Option<&'a Particle<'a>>,
+    /// Where it begins, at the lens.
+    pub(super) origin: Point3,
+    /// Where it scattered so far.
+    pub(super) vertices: Vec<Vertex<'a>>,
 }
 
 /// What a ray leaves to do: what arrives, and the next ray.
@@ -48,7 +52,7 @@ impl Step {
     }
 }
 
-impl<P: Probe> EyeWalk<'_, P> {
+impl<'a, P: Probe> EyeWalk<'a, P> {
     /// Follows an eye ray; radiance is summed from the far end, as the recorder folds it.
     pub(super) fn trace(&mut self, ray: PathRay, first: P::Id, out: &mut Contribution) {
         let mut links: Vec<Link<P::Id>> = Vec::new();
@@ -86,75 +90,133 @@ impl<P: Probe> EyeWalk<'_, P> {
             return Step::end(Spectrum::BLACK);
         }
         self.walk.rays += 1;
-        let Some(hit) = self.walk.cx.scene.closest(self.walk.cx, &ray.ray, self.walk.probe, id) else {
-            return Step::end(self.escape(&ray, *flight, id));
+        let cx = self.walk.cx;
+        let hit = match self.walk.heeds_media {
+            true => cx.scene.closest_boundary(cx, &ray.ray, self.walk.probe, id),
+            false => cx.scene.closest(cx, &ray.ray, self.walk.probe, id),
         };
-        let met =
-            self.walk.meet(&mut ray, &hit, |walk, s| walk.probe.surface(id, s.object, &hit, &s.surface));
+        let (mut passed, mut sent) = (Spectrum::ONE, Spectrum::BLACK);
+        if let Some((floated, phase)) = self.walk.float(&mut ray, hit.map_or(f32::INFINITY, |hit| hit.t)) {
+            if P::RECORDS {
+                self.walk.report_floating(&ray, &floated, id);
+            }
+            sent = floated.sent * self.own.ways.weight(0, self.vertices.len() + 2, || 1.0);
+            if let medium::End::Scattered(t) = floated.end {
+                return self.deflect(&ray, (phase, t, floated.weight), sent, (flight, id));
+            }
+            passed = floated.weight;
+        }
+        let Some(hit) = hit else {
+            return Step::end(self.escape(&ray, (passed, sent), *flight, id));
+        };
+        let met = self.walk.meet(&mut ray, (&hit, passed), |walk, s| {
+            walk.probe.surface(id, s.object, &hit, &s.surface);
+        });
         let Some((mut s, crossing, left)) = met else {
-            return Step { radiance: Spectrum::BLACK, next: Some((ray, RayKind::Passing)) };
+            self.walk.probe.local(id, sent);
+            return Step { radiance: sent, next: Some((ray, RayKind::Passing)) };
         };
         s.bsdf.dim(left);
-        let from = self.vertices.last().map_or(ray.from, |before| before.s.surface.p);
-        let own = self.walk.density(*flight, from, &s);
-        let vertex =
-            Vertex { s, crossing, arriving: Spectrum::ONE, own, other: 0.0, is_sharp: false, path: ray };
-        self.shade(vertex, left, flight, id)
+        self.shade((ray, s, crossing), (left, sent), (flight, id))
     }
 
-    fn shade(&mut self, mut vertex: Vertex, left: Spectrum, flight: &mut Flight, id: P::Id) -> Step {
-        let emission = left * self.met(&vertex, id);
+    /// What happens at a surface, before which the medium has `sent` light.
+    fn shade(
+        &mut self,
+        (ray, s, crossing): (PathRay, Shading, Crossing),
+        (left, sent): (Spectrum, Spectrum),
+        (flight, id): (&mut Flight, P::Id),
+    ) -> Step {
+        let p = s.surface.p;
+        let own = self.density(*flight, &ray, (p, s.surface.n_g.dot(s.wo).abs()));
+        let emission = left * self.met(&s, own, id);
         if P::RECORDS {
             let black = Spectrum::BLACK;
             let parts = Parts { arrived: left, emission, ambient: black, blurred_sky: black };
-            self.walk.report_shaded(&vertex.path, (&vertex.s, &vertex.crossing), &parts, id);
+            self.walk.report_shaded(&ray, (&s, &crossing), &parts, id);
         }
+        let emission = emission + sent;
         self.walk.probe.local(id, emission);
-        let ray = vertex.path;
         let sampler = ray.sampler.fork(SCATTER_BRANCH);
-        let bsdf = &vertex.s.bsdf;
-        let choice = if bsdf.has_choice() { sampler.d1(Dim::Lobe) } else { 0.0 };
-        let scattered = bsdf.scatter(vertex.s.wo_local, choice, sampler.d2(Dim::Scatter));
+        let scattered = s.scattered(&sampler);
         if let Some(through) = scattered.filter(|scattered| scattered.passes) {
-            let next = straight_on(&ray, (&vertex.s, &vertex.crossing), through.weight);
+            let next = straight_on(&ray, (&s, &crossing), through.weight);
             if P::RECORDS {
-                self.walk.probe.chosen(&chosen(&vertex.s, &through, (&sampler, 0.0)));
+                self.walk.probe.chosen(&chosen(&s, &through, (&sampler, 0.0)));
             }
             return Step { radiance: emission, next: Some((next, RayKind::sharp(BranchKind::Transmission))) };
         }
         // Of what is there in part only the rest was met.
-        let there = 1.0 / (1.0 - bsdf.passing_chance(vertex.s.wo_local));
-        let radiance = self.light(&vertex, there, (id, emission));
-        let radiance = self.join(&vertex, there, (id, radiance));
-        let Some(scattered) = scattered else {
-            let reason = match P::ACTIVE && vertex.s.bsdf.is_black() {
-                true => StopReason::Absorbed,
-                false => StopReason::OpaqueNoChildren,
-            };
-            self.walk.probe.stop(id, reason, Spectrum::BLACK);
-            return Step::end(radiance);
+        let there = 1.0 / (1.0 - s.bsdf.passing_chance(s.wo_local));
+        let onward = scattered.map(|scattered| {
+            Onward::of::<P>(&ray, (&s, &crossing), (&scattered, scattered.weight), &sampler)
+        });
+        let end = match P::ACTIVE && s.bsdf.is_black() {
+            true => StopReason::Absorbed,
+            false => StopReason::OpaqueNoChildren,
         };
-        let d = vertex.s.frame.to_world(scattered.wi);
-        vertex.is_sharp = scattered.pdf.is_none();
-        let [pdf, back] = vertex.there_and_back(scattered.pdf, d);
+        let vertex = Vertex { own, ..Vertex::new(Place::Surface(s, crossing), p, left, ray) };
+        self.go_on(vertex, onward.ok_or(end), (there, emission), (flight, id))
+    }
+
+    /// What happens at a particle that a ray met at parameter `t`, before which the medium has `sent` light.
+    fn deflect(
+        &mut self,
+        ray: &PathRay,
+        (phase, t, weight): (&'a Phase, f32, Spectrum),
+        sent: Spectrum,
+        (flight, id): (&mut Flight, P::Id),
+    ) -> Step {
+        // The body absorbs what the volume in it does not.
+        let left = self.walk.arriving(&ray.media, ray.from, &ray.ray, t) * weight;
+        self.walk.probe.local(id, sent);
+        if left.is_black() {
+            self.walk.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+            return Step::end(sent);
+        }
+        let (vertex, onward) = self.walk.deflected(ray, (phase, t), left);
+        let own = self.density(*flight, ray, (vertex.p, 1.0));
+        self.go_on(Vertex { own, ..vertex }, Ok(onward), (1.0, sent), (flight, id))
+    }
+
+    /// Density with which a ray of the walk comes to a place, with the cosine there.
+    fn density(&self, flight: Flight, ray: &PathRay, to: (Point3, f32)) -> f32 {
+        let from = self.vertices.last().map_or(self.origin, |before| before.p);
+        self.walk.density(flight, (from, &ray.ray), to)
+    }
+
+    /// Joins a vertex to lights and to the particle, of which the share that is `there` was met, and follows the walk, if
+    /// it does not end there.
+    fn go_on(
+        &mut self,
+        mut vertex: Vertex<'a>,
+        onward: Result<Onward, StopReason>,
+        (there, radiance): (f32, Spectrum),
+        (flight, id): (&mut Flight, P::Id),
+    ) -> Step {
+        let radiance = self.light(&vertex, there, (id, radiance));
+        let radiance = self.join(&vertex, there, (id, radiance));
+        let onward = match onward {
+            Ok(onward) => onward,
+            Err(reason) => {
+                self.walk.probe.stop(id, reason, Spectrum::BLACK);
+                return Step::end(radiance);
+            }
+        };
+        let [pdf, back] = vertex.go_on(&onward);
         *flight = Flight::Direction(pdf);
         if let Some(before) = self.vertices.last_mut() {
-            before.other = before.by_area(back, vertex.s.surface.p);
+            before.other = before.by_area(back, vertex.p);
         }
-        let mut child = scattered_on(&ray, (&vertex.s, &vertex.crossing), &scattered, scattered.weight);
-        let kind = match scattered.pdf {
-            None => RayKind::sharp(scattered.kind),
-            Some(_) => RayKind::drawn(scattered.kind),
-        };
+        let Onward { mut child, kind, told, .. } = onward;
         let is_sure = child.depth <= self.own.roulette_depth;
         let kept = if is_sure { 1.0 } else { kept(child.throughput.max() / child.compression) };
-        let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
+        let u = if kept < 1.0 { child.sampler.d1(Dim::Roulette) } else { 0.0 };
         let lives = u < kept;
-        if P::RECORDS {
-            let other = vertex.pdf(d, vertex.s.wo);
-            let told = chosen(&vertex.s, &scattered, (&sampler, other));
+        if let Some(told) = told {
             self.walk.probe.chosen(&Choice { kept: if lives { kept } else { 1.0 }, ..told });
         }
+        let share = vertex.path.throughput;
         self.vertices.push(vertex);
         if !lives {
             if P::ACTIVE {
@@ -166,33 +228,40 @@ impl<P: Probe> EyeWalk<'_, P> {
             return Step::end(radiance);
         }
         child.weight = child.weight / kept;
-        child.throughput = ray.throughput * child.weight;
+        child.throughput = share * child.weight;
         Step { radiance, next: Some((child, kind)) }
     }
 
-    /// What the surface that was met sends along the ray, by the share of having met it.
-    fn met(&mut self, vertex: &Vertex, id: P::Id) -> Spectrum {
+    /// What the surface that was met sends along the ray, by the share of having met it, which was done with density `own`.
+    fn met(&mut self, s: &Shading, own: f32, id: P::Id) -> Spectrum {
         let t = self.vertices.len() + 2;
-        let own = self.own.ways.weight(0, t, || 1.0);
-        let Some(lamp) = vertex.s.lamp.filter(|lamp| !lamp.radiance.is_black()) else {
-            return vertex.s.emission * own;
+        let weight = self.own.ways.weight(0, t, || 1.0);
+        let Some(lamp) = s.lamp.filter(|lamp| !lamp.radiance.is_black()) else {
+            return s.emission * weight;
         };
         let LightHit { p, .. } = lamp.hit;
         let end = End { light: lamp.light as usize, source: Source::Surface(lamp.hit), p };
-        let share = self.own.ways.weight(0, t, || self.share_of_met(&end, -vertex.s.wo, vertex.own));
+        let share = self.own.ways.weight(0, t, || self.share_of_met(&end, -s.wo, own));
         if P::RECORDS {
             let other = self.vertices.last().map_or(0.0, |before| {
-                let lit = before.lit(before.s.wo);
+                let lit = before.lit(before.wo());
                 let chance = self.walk.cx.scene.light_chance(self.own.light_sampler, &lit, end.light);
-                chance * vertex.s.lamp_pdf(self.walk.cx, &lamp, lit.p)
+                chance * s.lamp_pdf(self.walk.cx, &lamp, lit.p)
             });
             self.walk.probe.met_light(id, other, share);
         }
-        vertex.s.emission * own + lamp.radiance * share
+        s.emission * weight + lamp.radiance * share
     }
 
-    /// What surrounds the scene sends along a ray that left it.
-    fn escape(&mut self, ray: &PathRay, flight: Flight, id: P::Id) -> Spectrum {
+    /// What surrounds the scene sends along a ray that left it, of which the share `passed` gets through, and what the medium
+    /// has sent.
+    fn escape(
+        &mut self,
+        ray: &PathRay,
+        (passed, sent): (Spectrum, Spectrum),
+        flight: Flight,
+        id: P::Id,
+    ) -> Spectrum {
         let cx = self.walk.cx;
         let t = self.vertices.len() + 2;
         let own = match flight {
@@ -207,32 +276,28 @@ impl<P: Probe> EyeWalk<'_, P> {
                 sky += radiance * self.own.ways.weight(0, t, || self.share_of_met(&end, ray.ray.d, own));
             }
         }
-        let sky = self.walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * sky;
+        let sky = self.walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * passed * sky + sent;
         self.walk.probe.local(id, sky);
         self.walk.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
         sky
     }
 
     /// Adds the light of one lamp that a vertex asks for.
-    fn light(&mut self, vertex: &Vertex, there: f32, (id, radiance): (P::Id, Spectrum)) -> Spectrum {
+    fn light(&mut self, vertex: &Vertex<'a>, there: f32, (id, radiance): (P::Id, Spectrum)) -> Spectrum {
         let ray = &vertex.path;
         if ray.depth >= self.own.rules.max_depth || !vertex.is_connectible() {
             return radiance;
         }
         let scene = self.walk.cx.scene;
         let choosing = ray.sampler.fork(LIGHT_BRANCH);
-        let lit = vertex.lit(vertex.s.wo);
+        let lit = vertex.lit(vertex.wo());
         let chosen = scene.choose_light(self.own.light_sampler, &lit, || choosing.d1(Dim::LightChoice));
         let Some(chosen) = chosen else { return radiance };
-        let asked = LightCx { basis: self.walk.cx.basis, time: vertex.s.time };
+        let asked = LightCx { basis: self.walk.cx.basis, time: vertex.time() };
         let Some(sample) = scene.lights[chosen.light].sample(&asked, lit.p, &choosing) else {
             return radiance;
         };
-        let wi = vertex.s.frame.to_local(sample.wi);
-        let f = match sample.pdf {
-            None => vertex.s.bsdf.eval_radiance(vertex.s.wo_local, wi),
-            Some(_) => vertex.s.bsdf.eval_with_pdf(vertex.s.wo_local, wi).0,
-        };
+        let (f, cos) = vertex.seen(&asked.basis, sample.wi, sample.pdf.is_none());
         if f.is_black() {
             return radiance;
         }
@@ -240,7 +305,7 @@ impl<P: Probe> EyeWalk<'_, P> {
         let t = self.vertices.len() + 2;
         let share = || self.share_of_asked(&end, vertex, sample.wi, (chosen.chance, sample.pdf));
         let share = self.own.ways.weight(1, t, share);
-        let weight = f * (wi.z.abs() * share * there / chosen.chance);
+        let weight = f * (cos * share * there / chosen.chance);
         if weight.is_black() {
             return radiance;
         }
@@ -251,15 +316,16 @@ impl<P: Probe> EyeWalk<'_, P> {
                 chance: chosen.chance,
                 light_choice: Some(RandomNumbers::one(Dim::LightChoice, choosing.d1(Dim::LightChoice))),
                 f: Some(f * there),
-                cos: Some(wi.z.abs()),
+                cos: Some(cos),
                 pdf: sample.pdf,
-                other_pdf: sample.pdf.map(|_| vertex.pdf(vertex.s.wo, sample.wi)),
+                other_pdf: sample.pdf.map(|_| vertex.pdf(vertex.wo(), sample.wi)),
                 mis: Some(share),
                 random: sample.pdf.map(|_| RandomNumbers::two(Dim::Light, u.to_array())),
                 ..Choice::sharp()
             });
         }
-        let light = self.walk.shadow(ray, (&vertex.s, &vertex.crossing), chosen.light, weight, &sample, id);
-        radiance + weight * light
+        let path = vertex.shadow_path(&self.walk, chosen.light, weight, &sample);
+        let arriving = (sample.point, sample.weight);
+        radiance + weight * self.walk.send_shadow(&path, chosen.light as u32, arriving, id)
     }
 }

@@ -11,7 +11,7 @@ use crate::{
     probe::{Choice, ChosenBy, Probe},
 };
 
-impl<P: Probe> EyeWalk<'_, P> {
+impl<'a, P: Probe> EyeWalk<'a, P> {
     /// Joins the particle's vertices to the camera.
     pub(super) fn splat(&mut self, id: P::Id, out: &mut Contribution) {
         let Some(particle) = self.particle.filter(|_| self.walk.cx.scene.view.is_connectible()) else {
@@ -24,7 +24,7 @@ impl<P: Probe> EyeWalk<'_, P> {
             let Some(sighting) = self.walk.sighting(particle, index, id) else { continue };
             let share = || {
                 let vertex = &particle.vertices[index];
-                let cos = vertex.s.surface.n_g.dot(sighting.d).abs();
+                let cos = vertex.cos(sighting.d);
                 let mut densities =
                     self.light_part(particle, index, (sighting.d, sighting.seen.importance * cos));
                 densities.is_seen = true;
@@ -38,7 +38,7 @@ impl<P: Probe> EyeWalk<'_, P> {
     /// Adds what the particle's vertices send to a vertex of the eye's walk.
     pub(super) fn join(
         &mut self,
-        vertex: &Vertex,
+        vertex: &Vertex<'a>,
         there: f32,
         (id, radiance): (P::Id, Spectrum),
     ) -> Spectrum {
@@ -62,29 +62,28 @@ impl<P: Probe> EyeWalk<'_, P> {
     /// What one vertex of the particle sends to one of the eye's walk, by the share of this edge.
     fn edge(
         &mut self,
-        vertex: &Vertex,
+        vertex: &Vertex<'a>,
         there: f32,
-        (particle, index): (&Particle, usize),
+        (particle, index): (&Particle<'_>, usize),
         id: P::Id,
     ) -> Spectrum {
         let other = &particle.vertices[index];
         if !other.is_connectible() {
             return Spectrum::BLACK;
         }
-        let (d, distance) = towards(vertex.s.surface.p, other.s.surface.p);
-        let wi = vertex.s.frame.to_local(d);
-        let f = vertex.s.bsdf.eval_with_pdf(vertex.s.wo_local, wi).0;
+        let (d, distance) = towards(vertex.p, other.p);
+        let basis = &self.walk.cx.basis;
+        let (f, cos) = vertex.seen(basis, d, false);
         if f.is_black() {
             return Spectrum::BLACK;
         }
         let is_first = index == 0 && particle.end.is_sharp();
-        let mut sent = other.sent(-d, is_first);
+        let mut sent = other.sent(basis, -d, is_first);
         if vertex.path.is_collapsed && other.path.is_collapsed {
             // Both parts count their one wavelength for all four: once is enough.
             sent = sent * 0.25;
         }
-        let cos = other.s.surface.n_g.dot(d).abs();
-        let seen = f * (cos * wi.z.abs() * there / (distance * distance));
+        let seen = f * (other.cos(d) * cos * there / (distance * distance));
         if sent.is_black() || !(seen * sent).is_finite() {
             return Spectrum::BLACK;
         }
@@ -94,9 +93,9 @@ impl<P: Probe> EyeWalk<'_, P> {
             self.walk.probe.chosen(&Choice {
                 by: ChosenBy::Joined,
                 f: Some(f * there),
-                cos: Some(wi.z.abs()),
-                pdf: Some(vertex.pdf(vertex.s.wo, d)),
-                other_pdf: Some(other.pdf(other.s.wo, -d)),
+                cos: Some(cos),
+                pdf: Some(vertex.pdf(vertex.wo(), d)),
+                other_pdf: Some(other.pdf(other.wo(), -d)),
                 mis: Some(share),
                 ..Choice::sharp()
             });
@@ -110,30 +109,24 @@ impl<P: Probe> EyeWalk<'_, P> {
     fn light_part(&self, particle: &Particle, index: usize, (d, met): (Vector3, f32)) -> Densities {
         let vertices = &particle.vertices[..=index];
         let last = &vertices[index];
-        let back = last.pdf(d, last.s.wo);
+        let back = last.pdf(d, last.wo());
         let first = &vertices[0];
-        let p = last.s.surface.p;
-        let (to_light, from_first) = (first.s.wo, if index == 0 { d } else { -vertices[1].s.wo });
+        let p = last.p;
+        let (to_light, from_first) = (first.wo(), if index == 0 { d } else { -vertices[1].wo() });
         let asked = particle.end.asked(self.walk.cx, (first, from_first), to_light, self.own.light_sampler);
         let end = match index {
             0 => particle.end.by_area(back, p),
             _ => particle.other,
         };
-        let mut densities = Densities {
-            walks: vec![[particle.own, end]],
-            is_sharp: vec![false],
-            asked,
-            is_met: particle.end.is_met(),
-            is_seen: false,
-        };
+        let room = index + 2 + self.vertices.len();
+        let mut densities = Densities::of_light([particle.own, end], asked, particle.end.is_met(), room);
         for (i, vertex) in vertices.iter().enumerate() {
             let other = match index - i {
                 0 => met,
                 1 => vertex.by_area(back, p),
                 _ => vertex.other,
             };
-            densities.walks.push([vertex.own, other]);
-            densities.is_sharp.push(i < index && vertex.is_sharp);
+            densities.add(vertex.own, other, i < index && vertex.is_sharp);
         }
         densities
     }
@@ -144,21 +137,24 @@ impl<P: Probe> EyeWalk<'_, P> {
         let count = self.vertices.len();
         for (i, vertex) in self.vertices.iter().enumerate().rev() {
             let other = if i + 1 == count { met.unwrap_or(vertex.other) } else { vertex.other };
-            densities.walks.push([other, vertex.own]);
-            densities.is_sharp.push(vertex.is_sharp);
+            densities.add(other, vertex.own, vertex.is_sharp);
         }
         densities.is_seen = self.walk.cx.scene.view.is_connectible();
     }
 
-    fn share_of_edge(&self, vertex: &Vertex, (particle, index): (&Particle, usize), d: Vector3) -> f32 {
+    fn share_of_edge(
+        &self,
+        vertex: &Vertex<'_>,
+        (particle, index): (&Particle<'_>, usize),
+        d: Vector3,
+    ) -> f32 {
         let other = &particle.vertices[index];
-        let (here, there) = (vertex.s.surface.p, other.s.surface.p);
-        let met = other.by_area(vertex.pdf(vertex.s.wo, d), here);
+        let (here, there) = (vertex.p, other.p);
+        let met = other.by_area(vertex.pdf(vertex.wo(), d), here);
         let mut densities = self.light_part(particle, index, (-d, met));
-        let reached = vertex.by_area(other.pdf(other.s.wo, -d), there);
-        densities.walks.push([reached, vertex.own]);
-        densities.is_sharp.push(false);
-        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.s.wo), here));
+        let reached = vertex.by_area(other.pdf(other.wo(), -d), there);
+        densities.add(reached, vertex.own, false);
+        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.wo()), here));
         self.add_eye_part(&mut densities, before);
         densities.share(index + 2)
     }
@@ -168,22 +164,18 @@ impl<P: Probe> EyeWalk<'_, P> {
     pub(super) fn share_of_asked(
         &self,
         end: &End,
-        vertex: &Vertex,
+        vertex: &Vertex<'a>,
         d: Vector3,
         (chance, pdf): (f32, Option<f32>),
     ) -> f32 {
-        let here = vertex.s.surface.p;
+        let here = vertex.p;
         let asked = chance * pdf.map_or(1.0, |pdf| end.by_area(pdf, here));
-        let met = end.by_area(vertex.pdf(vertex.s.wo, d), here);
+        let met = end.by_area(vertex.pdf(vertex.wo(), d), here);
         let [begun, reached] = end.begun(self.walk.cx, vertex, d);
-        let mut densities = Densities {
-            walks: vec![[begun, met], [reached, vertex.own]],
-            is_sharp: vec![false; 2],
-            asked,
-            is_met: end.is_met(),
-            is_seen: false,
-        };
-        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.s.wo), here));
+        let room = 1 + self.vertices.len();
+        let mut densities = Densities::of_light([begun, met], asked, end.is_met(), room);
+        densities.add(reached, vertex.own, false);
+        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.wo()), here));
         self.add_eye_part(&mut densities, before);
         densities.share(1)
     }
@@ -194,15 +186,9 @@ impl<P: Probe> EyeWalk<'_, P> {
         let [begun, reached] = end.begun(self.walk.cx, vertex, d);
         let asked = match vertex.is_sharp {
             true => 1.0,
-            false => end.asked(self.walk.cx, (vertex, vertex.s.wo), d, self.own.light_sampler),
+            false => end.asked(self.walk.cx, (vertex, vertex.wo()), d, self.own.light_sampler),
         };
-        let mut densities = Densities {
-            walks: vec![[begun, own]],
-            is_sharp: vec![false],
-            asked,
-            is_met: true,
-            is_seen: false,
-        };
+        let mut densities = Densities::of_light([begun, own], asked, true, self.vertices.len());
         // The vertex itself is reached from the light; those before it by its own scattering.
         self.add_eye_part(&mut densities, Some(reached));
         densities.share(0)

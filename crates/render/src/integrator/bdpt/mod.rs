@@ -49,8 +49,8 @@ impl Kind for Bidirectional {
     const SCHEMA: Schema = Schema {
         name: "bdpt",
         aliases: &[],
-        doc: "Bidirectional path tracing: walks from the eye and from a light, joined in every way. Finds caustics and light \
-              around corners that paths look for in vain.",
+        doc: "Bidirectional path tracing: walks from the eye and from a light, joined in every way, through fog and smoke as \
+              well. Finds caustics and light around corners that paths look for in vain.",
         params: &[
             PATH_DEPTH,
             LIGHT_SAMPLER,
@@ -161,11 +161,12 @@ impl Transport for Bidirectional {
     ) {
         let (Start::Eye(ray) | Start::Again(TreeNode { path: ray, .. })) = start;
         let ray = PathRay { media: cx.scene.start, ..*ray };
-        let mut walk = Walk::new(&self.rules, cx, probe);
+        let mut walk = Walk::in_media(&self.rules, cx, probe);
         let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
         let id = walk.probe.ray(parent, &ray, RayKind::Eye);
         let particle = walk.particle(&ray, stamina, id);
-        let mut eye = EyeWalk { own: self, walk, particle: particle.as_ref(), vertices: Vec::new() };
+        let (origin, vertices) = (ray.ray.o, stamina.room());
+        let mut eye = EyeWalk { own: self, walk, particle: particle.as_ref(), origin, vertices };
         eye.splat(id, out);
         eye.trace(ray, id, out);
         out.rays = eye.walk.rays;

@@ -10,10 +10,9 @@
 /// What is known of all ways to sample a path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Densities {
-    /// Of each vertex but the camera: by a walk from the light, and by one from the eye. The first is the light.
-    pub(super) walks: Vec<[f32; 2]>,
-    /// Whether it is scattered at each vertex in a sharp direction, so that no edge can be joined there.
-    pub(super) is_sharp: Vec<bool>,
+    /// Of each vertex but the camera: by a walk from the light, and by one from the eye; and whether it is scattered there in
+    /// a sharp direction, so that no edge can be joined. The first is the light.
+    walks: Vec<([f32; 2], bool)>,
     /// Of the light's point where it is asked for by the next vertex.
     pub(super) asked: f32,
     /// Rays can meet the light.
@@ -23,21 +22,32 @@ pub(super) struct Densities {
 }
 
 impl Densities {
+    /// Those of a light, which is asked for with density `asked`, with room for so many vertices.
+    pub(super) fn of_light(light: [f32; 2], asked: f32, is_met: bool, vertices: usize) -> Self {
+        // PERF: asks for memory once (bench render).
+        let mut walks = Vec::with_capacity(vertices + 1);
+        walks.push((light, false));
+        Self { walks, asked, is_met, is_seen: false }
+    }
+    /// Adds the next vertex, towards the camera: densities from the light and from the eye, and whether it is sharp.
+    pub(super) fn add(&mut self, from_light: f32, from_eye: f32, is_sharp: bool) {
+        self.walks.push(([from_light, from_eye], is_sharp));
+    }
     /// Whether a path can be found with `s` vertices from the light.
     fn is_possible(&self, s: usize) -> bool {
         let n = self.walks.len();
         match s {
             0 => self.is_met,
-            _ if s == n => self.is_seen && !self.is_sharp[s - 1] && n > 1,
-            _ => !self.is_sharp[s - 1] && !self.is_sharp[s],
+            _ if s == n => self.is_seen && !self.walks[s - 1].1 && n > 1,
+            _ => !self.walks[s - 1].1 && !self.walks[s].1,
         }
     }
 
     /// The share of the path that was found with `s` vertices from the light.
     pub(super) fn share(&self, s: usize) -> f32 {
         let n = self.walks.len();
-        let ratio = |i: usize| f64::from(self.walks[i][0]) / f64::from(self.walks[i][1]);
-        let [begun, met] = self.walks[0].map(f64::from);
+        let ratio = |i: usize| f64::from(self.walks[i].0[0]) / f64::from(self.walks[i].0[1]);
+        let [begun, met] = self.walks[0].0.map(f64::from);
         let asked = f64::from(self.asked);
         // p_i by p_s. Upwards from the way that was taken each vertex was met from the eye, downwards from the light.
         let mut sum = 1.0;
@@ -90,9 +100,9 @@ mod tests {
         let of = |s: usize| {
             let light = (0..s).map(|i| match (i, s) {
                 (0, 1) => f64::from(d.asked),
-                _ => f64::from(d.walks[i][0]),
+                _ => f64::from(d.walks[i].0[0]),
             });
-            let eye = (s..n).map(|i| f64::from(d.walks[i][1]));
+            let eye = (s..n).map(|i| f64::from(d.walks[i].0[1]));
             light.product::<f64>() * eye.product::<f64>()
         };
         (0..=n).map(|s| if d.is_possible(s) { of(s) } else { 0.0 }).collect()
@@ -104,8 +114,9 @@ mod tests {
             let n = 1 + case % 7;
             let own = |i: usize, k: u32| number(case as u32 * 64 + i as u32 * 4 + k);
             let d = Densities {
-                walks: (0..n).map(|i| [own(i, 0), own(i, 1)]).collect(),
-                is_sharp: (0..n).map(|i| i > 0 && case % 3 == 0 && own(i, 2) < 3.0).collect(),
+                walks: (0..n)
+                    .map(|i| ([own(i, 0), own(i, 1)], i > 0 && case % 3 == 0 && own(i, 2) < 3.0))
+                    .collect(),
                 asked: own(40, 3),
                 is_met: case % 5 != 0,
                 is_seen: case % 4 != 0 && n > 1,
@@ -125,8 +136,7 @@ mod tests {
     #[test]
     fn lights_that_send_no_particles_are_asked_or_met() {
         let d = Densities {
-            walks: vec![[0.0, 2.0], [0.0, 1.0], [3.0, 1.0]],
-            is_sharp: vec![false; 3],
+            walks: vec![([0.0, 2.0], false), ([0.0, 1.0], false), ([3.0, 1.0], false)],
             asked: 6.0,
             is_met: true,
             is_seen: true,

@@ -227,10 +227,7 @@ impl<'a, P: Probe> Follow<'a, P> {
         id: P::Id,
     ) -> Option<RayKind> {
         let sampler = parent.sampler.fork(SCATTER_BRANCH);
-        // PERF: a number that decides nothing is not asked for (bench render).
-        let choice = if s.bsdf.has_choice() { sampler.d1(Dim::Lobe) } else { 0.0 };
-        let scattered = s.bsdf.scatter(s.wo_local, choice, sampler.d2(Dim::Scatter));
-        let Some(scattered) = scattered else {
+        let Some(scattered) = s.scattered(&sampler) else {
             let reason = match P::ACTIVE && s.bsdf.is_black() {
                 true => StopReason::Absorbed,
                 false => StopReason::OpaqueNoChildren,

@@ -3,20 +3,16 @@
 //! `L = light sent out on the way + weight * (light of one lamp, scattered + L(next ray))`: the direction of the next ray is
 //! drawn from the phase function, so that it keeps its weight. Paths that lanes would draw differently count by the mean of
 //! these densities, see [`durer_model::medium::Flight`].
-use durer_core::{
-    math::{Point3, Ray},
-    sampling::Dim,
-    spectrum::Spectrum,
-};
+use durer_core::{math::Point3, sampling::Dim, spectrum::Spectrum};
 use durer_model::{
     light::LightCx,
-    medium::{End, Flier, Phase},
+    medium::{End, Phase},
 };
 
 use super::{
     super::{
-        shading::{LIGHT_BRANCH, MEDIUM_BRANCH},
-        walk::span,
+        shading::LIGHT_BRANCH,
+        walk::{deflection, draws, span},
     },
     direct::{Asked, share},
     follow::{Follow, SCATTER_BRANCH, Step},
@@ -44,16 +40,10 @@ impl<P: Probe> Follow<'_, P> {
             false => cx.scene.closest(cx, &ray.ray, walk.probe, id),
         };
         let way = span(ray.from, &ray.ray, hit.map_or(f32::INFINITY, |hit| hit.t));
-        let sampler = ray.sampler.fork(MEDIUM_BRANCH);
-        let draws = |i| if i == 0 { sampler.d2(Dim::Medium) } else { sampler.fork(i).d2(Dim::Medium) };
         let below = ray.below.map(|below| (below, Phase::HenyeyGreenstein(below.inside.phase)));
         let (flight, phase) = match (&below, walk.volume(&ray.media)) {
-            (Some((below, phase)), _) => (below.fly(cx.scene, ray, (way, hit.as_ref()), &draws), phase),
-            (None, Some(volume)) => {
-                let absorption = walk.absorption(&ray.media);
-                let flier = Flier { basis: cx.basis, lanes: ray.lanes, absorption };
-                (volume.fly(&flier, &ray.ray, way, &draws), volume.phase())
-            }
+            (Some((below, phase)), _) => (below.fly(cx.scene, ray, (way, hit.as_ref()), &draws(ray)), phase),
+            (None, Some(volume)) => (walk.fly(volume, ray, way), volume.phase()),
             (None, None) => {
                 return match hit {
                     Some(hit) => self.shade(ray, &hit, (None, id)),
@@ -62,7 +52,7 @@ impl<P: Probe> Follow<'_, P> {
             }
         };
         if P::RECORDS {
-            self.report_floating(ray, &flight, id);
+            walk.report_floating(ray, &flight, id);
         }
         ray.lanes = flight.lanes;
         ray.density = ray.density.map(|density| density * flight.passed);
@@ -88,7 +78,7 @@ impl<P: Probe> Follow<'_, P> {
         // From below a surface no straight ray gets out.
         let lamps = if ray.below.is_some() { Spectrum::BLACK } else { self.light_at(ray, met, &lit, id) };
         let radiance = sent + lamps;
-        Step { radiance, next: self.scatter_at(ray, met, &lit, id) }
+        Step { radiance, next: self.scatter_at(ray, met, id) }
     }
 
     /// The light of one lamp that a particle scatters back along the ray.
@@ -119,36 +109,21 @@ impl<P: Probe> Follow<'_, P> {
             let asked = Asked { chosen, sample, wi: sample.wi, f: scattered * f, other_pdf, mis, weight };
             self.report_light(&choosing, &asked, (1.0, u()));
         }
-        let to_light = match sample.point {
-            Some(point) => {
-                Ray { t_max: 1.0f32.next_down(), time: lit.time, ..Ray::new(met.p, point - met.p) }
-            }
-            None => Ray { time: lit.time, ..Ray::new(met.p, sample.wi) },
-        };
-        let child = ray.child((met.p, to_light), weight, LIGHT_BRANCH + chosen.light as u32);
+        let child = self.walk.shadow_path_at(ray, met.p, chosen.light, weight, &sample);
         let path = PathRay { density: Some(1.0 - mis), ..child };
         weight * self.walk.send_shadow(&path, chosen.light as u32, (sample.point, sample.weight), id)
     }
 
     /// Puts the ray that a particle sends on in the place of the one that met it, if chance lets it.
-    fn scatter_at(&mut self, parent: &mut PathRay, met: &Met<'_>, lit: &Lit, id: P::Id) -> Option<RayKind> {
+    fn scatter_at(&mut self, parent: &mut PathRay, met: &Met<'_>, id: P::Id) -> Option<RayKind> {
         let sampler = parent.sampler.fork(SCATTER_BRANCH);
-        let phase = met.phase;
-        let d = phase.deflected(parent.ray.d, sampler.d2(Dim::Scatter));
-        let cos = parent.ray.d.dot(d);
-        let weight = met.weight * phase.tint(&self.walk.cx.basis, cos);
-        let ray = Ray { time: lit.time, ..Ray::new(met.p, d) };
-        let mut child = PathRay {
-            density: Some(phase.density(cos)),
-            lit: *lit,
-            is_blurred: true,
-            ..parent.child((met.p, ray), weight, SCATTER_BRANCH)
-        };
+        let mut child = self.walk.deflect(parent, (met.phase, met.p), met.weight, SCATTER_BRANCH);
         child.walk_on(parent, true);
         let kept = self.kept(&child);
         let u = if kept < 1.0 { sampler.d1(Dim::Roulette) } else { 0.0 };
         if P::RECORDS {
-            self.report_deflected((&sampler, phase.name()), &child, if u < kept { kept } else { 1.0 });
+            let kept = if u < kept { kept } else { 1.0 };
+            self.walk.probe.chosen(&deflection((&sampler, met.phase.name()), &child, kept));
         }
         if u >= kept {
             if P::ACTIVE {

@@ -4,10 +4,7 @@ use durer_core::{
     sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
-use durer_model::{
-    bsdf::Scattered,
-    medium::{End, Flight},
-};
+use durer_model::bsdf::Scattered;
 
 use super::{
     super::{shading::Shading, walk::Parts},
@@ -15,11 +12,9 @@ use super::{
     follow::Follow,
 };
 use crate::{
-    Below, PathRay,
+    PathRay,
     media::Crossing,
-    probe::{
-        Choice, ChosenBy, Floating, LightEvent, Limit, Particle, Probe, RandomNumbers, RayKind, StopReason,
-    },
+    probe::{Choice, ChosenBy, LightEvent, Limit, Probe, RandomNumbers, RayKind, StopReason},
 };
 
 impl<P: Probe> Follow<'_, P> {
@@ -110,50 +105,6 @@ impl<P: Probe> Follow<'_, P> {
             chance: if spread { 1.0 } else { scattered.chance },
             kept,
             random: spread.then(|| RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
-            ..Choice::sharp()
-        });
-    }
-
-    /// What floats on the way of a ray, and the particle that it met.
-    pub(super) fn report_floating(&mut self, ray: &PathRay, flight: &Flight, id: P::Id) {
-        let (scene, basis) = (self.walk.cx.scene, self.walk.cx.basis);
-        let fill = ray.media.present(&scene.media, &basis).fill;
-        let at = |t| {
-            let p = ray.ray.at(t);
-            let (sigma_a, sigma_s, g) = match (&ray.below, self.walk.volume(&ray.media)) {
-                (Some(Below { inside, .. }), _) => (inside.sigma_a, inside.sigma_s, inside.phase.g()),
-                (None, Some(volume)) => {
-                    let (sigma_a, sigma_s) = volume.coefficients(basis, p);
-                    (sigma_a, sigma_s, volume.phase().g())
-                }
-                (None, None) => return None,
-            };
-            Some(Particle { t, p, sigma_a, sigma_s, g })
-        };
-        let particle = match flight.end {
-            End::Scattered(t) => at(t),
-            End::Through => None,
-        };
-        let Flight { weight, sent, passed, .. } = *flight;
-        self.walk.probe.floating(id, &Floating { fill, weight, sent, passed, particle });
-    }
-
-    /// How the ray came about that a particle sends on, which lives with probability `kept` and is announced next.
-    pub(super) fn report_deflected(
-        &mut self,
-        (sampler, phase): (&Sampler, &'static str),
-        child: &PathRay,
-        kept: f32,
-    ) {
-        let u = sampler.d2(Dim::Scatter);
-        self.walk.probe.chosen(&Choice {
-            by: ChosenBy::Phase,
-            lobe: Some(phase),
-            f: child.density.map(|pdf| child.weight * pdf),
-            cos: Some(1.0),
-            pdf: child.density,
-            kept,
-            random: Some(RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
             ..Choice::sharp()
         });
     }

@@ -10,7 +10,7 @@ use super::{Gathering, Photon};
 use crate::{
     PathRay, SampleCx,
     integrator::{
-        vertices::Stamina,
+        vertices::{Place, Stamina},
         walk::{Rules, Walk},
     },
     probe::NoProbe,
@@ -43,7 +43,8 @@ pub fn send(
         let particle = walk.particle(&PathRay::eye(nowhere, sampler(number)), stamina, ());
         sent.rays += walk.rays;
         for (bounces, vertex) in (0..).zip(particle.iter().flat_map(|particle| &particle.vertices)) {
-            let (s, power) = (&vertex.s, vertex.arriving);
+            // They see no media.
+            let (Place::Surface(s, _), power) = (&vertex.place, vertex.arriving) else { continue };
             // Straight light is asked for from the eye.
             if bounces > 0 && s.bsdf.is_broad() && power.is_finite() && !power.is_black() {
                 sent.photons.push(Photon {

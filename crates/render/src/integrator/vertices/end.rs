@@ -32,10 +32,10 @@ impl End {
         }
     }
     /// Unit direction from a vertex to it, if it is far away along `d`.
-    fn direction(&self, from: &Vertex, d: Vector3) -> Vector3 {
+    fn direction(&self, from: &Vertex<'_>, d: Vector3) -> Vector3 {
         match self.source {
             Source::Far | Source::Parallel => d,
-            Source::Point | Source::Surface(_) => towards(from.s.surface.p, self.p).0,
+            Source::Point | Source::Surface(_) => towards(from.p, self.p).0,
         }
     }
     /// A density of directions from `from` to here: by area, or of far light as it is.
@@ -50,10 +50,10 @@ impl End {
 
     /// Densities with which a particle begins here and comes to the vertex `first`, in direction `d` from there: of the
     /// place of the light by area (of far light of the direction), and of the vertex by area.
-    pub(in super::super) fn begun(&self, cx: &SampleCx<'_>, first: &Vertex, d: Vector3) -> [f32; 2] {
+    pub(in super::super) fn begun(&self, cx: &SampleCx<'_>, first: &Vertex<'_>, d: Vector3) -> [f32; 2] {
         let d = self.direction(first, d);
-        let at = first.s.surface.p;
-        let (scene, asked) = (cx.scene, LightCx { basis: cx.basis, time: first.s.time });
+        let at = first.p;
+        let (scene, asked) = (cx.scene, LightCx { basis: cx.basis, time: first.time() });
         let chance = scene.emitter_chance(self.light);
         if chance == 0.0 {
             return [0.0; 2];
@@ -61,7 +61,7 @@ impl End {
         let leaving = Leaving { p: self.hit().map_or(at, |hit| hit.p), hit: self.hit(), d: -d };
         let [place, direction] = scene.lights[self.light].emission_pdf(&asked, &scene.extent, &leaving);
         match self.source {
-            Source::Far | Source::Parallel => [chance * direction, place * first.s.surface.n_g.dot(d).abs()],
+            Source::Far | Source::Parallel => [chance * direction, place * first.cos(d)],
             Source::Point | Source::Surface(_) => [chance * place, first.by_area(direction, self.p)],
         }
     }
@@ -71,7 +71,7 @@ impl End {
     pub(in super::super) fn asked(
         &self,
         cx: &SampleCx<'_>,
-        (first, wo): (&Vertex, Vector3),
+        (first, wo): (&Vertex<'_>, Vector3),
         d: Vector3,
         by: LightSampler,
     ) -> f32 {
@@ -80,7 +80,7 @@ impl End {
         if chance == 0.0 {
             return 0.0;
         }
-        let asked = LightCx { basis: cx.basis, time: first.s.time };
+        let asked = LightCx { basis: cx.basis, time: first.time() };
         let light = &cx.scene.lights[self.light];
         match &self.source {
             Source::Point | Source::Parallel => chance,
@@ -90,8 +90,8 @@ impl End {
     }
 
     /// What a vertex sampled of a light.
-    pub(in super::super) fn sampled(light: usize, sample: &LightSample, from: &Vertex) -> Self {
-        let at = from.s.surface.p;
+    pub(in super::super) fn sampled(light: usize, sample: &LightSample, from: &Vertex<'_>) -> Self {
+        let at = from.p;
         let (source, p) = match (sample.on, sample.point, sample.pdf) {
             (Some(hit), _, _) => (Source::Surface(hit), hit.p),
             (None, Some(point), _) => (Source::Point, point),

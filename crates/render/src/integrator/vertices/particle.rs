@@ -1,12 +1,13 @@
 //! The way of a particle: from a light through the scene, and from where it scatters to the camera.
 use durer_core::{
     math::{Point3, Ray, Vector3},
-    sampling::{Dim, Sampler},
+    sampling::Dim,
     spectrum::Spectrum,
 };
 use durer_model::{
     bsdf::Scattered,
     light::{Emitted, LightCx, Source},
+    medium::{self, End},
 };
 
 use super::{
@@ -14,7 +15,7 @@ use super::{
         shading::Shading,
         walk::{Parts, Walk},
     },
-    EMISSION_BRANCH, End, Flight, LENS_BRANCH, SCATTER_BRANCH, Vertex, kept, scattered_on, straight_on,
+    EMISSION_BRANCH, Flight, LENS_BRANCH, Onward, Place, SCATTER_BRANCH, Vertex, end, kept, straight_on,
     towards,
 };
 use crate::{
@@ -34,16 +35,36 @@ pub(in super::super) struct Stamina {
     pub(in super::super) sure: u32,
 }
 
+impl Stamina {
+    /// Room for the vertices of most walks.
+    ///
+    /// PERF: asks for memory once (bench render).
+    pub(in super::super) fn room<'a>(&self) -> Vec<Vertex<'a>> {
+        Vec::with_capacity(self.vertices.min(8) as usize)
+    }
+}
+
 /// A particle's way.
-pub(in super::super) struct Particle {
+pub(in super::super) struct Particle<'a> {
     /// Where it began.
-    pub(in super::super) end: End,
+    pub(in super::super) end: end::End,
     /// Density of the place where it began, by area (of far light of its direction), with the chance of the light.
     pub(in super::super) own: f32,
     /// Density with which a walk from the first vertex comes there.
     pub(in super::super) other: f32,
     /// Where it scattered.
-    pub(in super::super) vertices: Vec<Vertex>,
+    pub(in super::super) vertices: Vec<Vertex<'a>>,
+}
+
+/// What a ray of a particle led to.
+#[allow(clippy::large_enum_variant, reason = "made once for each ray, and never kept")]
+enum Met {
+    /// Another vertex, and how it goes on from there if it does.
+    Scattered(Option<Onward>),
+    /// Nothing: it goes on behind.
+    Passed,
+    /// Its end.
+    Ended,
 }
 
 /// A vertex as the camera sees it.
@@ -55,7 +76,7 @@ pub(in super::super) struct Sighting {
     pub(in super::super) splat: Splat,
 }
 
-impl<P: Probe> Walk<'_, P> {
+impl<'a, P: Probe> Walk<'a, P> {
     /// Sends a particle at the moment of an eye ray, by numbers of its sample. `None` if no light sends any, or what was
     /// chosen is black.
     pub(in super::super) fn particle(
@@ -63,7 +84,7 @@ impl<P: Probe> Walk<'_, P> {
         eye: &PathRay,
         stamina: Stamina,
         id: P::Id,
-    ) -> Option<Particle> {
+    ) -> Option<Particle<'a>> {
         let scene = self.cx.scene;
         let sampler = eye.sampler.apart(EMISSION_BRANCH);
         let chosen = scene.choose_emitter(|| sampler.d1(Dim::LightChoice))?;
@@ -79,9 +100,9 @@ impl<P: Probe> Walk<'_, P> {
             Source::Surface(hit) => hit.p,
             _ => begun.p,
         };
-        let end = End { light: chosen.light, source: begun.source, p };
-        let mut particle = Particle { end, own: own * chosen.chance, other: 0.0, vertices: Vec::new() };
-        let ray = self.first_ray(eye, &begun, (time, chosen.chance));
+        let end = end::End { light: chosen.light, source: begun.source, p };
+        let mut particle = Particle { end, own: own * chosen.chance, other: 0.0, vertices: stamina.room() };
+        let ray = self.first_ray(eye, &begun, (time, chosen.chance))?;
         if P::RECORDS {
             self.probe.chosen(&Choice {
                 by: ChosenBy::Light,
@@ -92,29 +113,37 @@ impl<P: Probe> Walk<'_, P> {
             });
         }
         if ray.throughput.is_finite() {
-            self.follow_particle(ray, (flight, p), stamina, &mut particle, id);
+            self.follow_particle(ray, flight, stamina, &mut particle, id);
         }
         Some(particle)
     }
 
-    fn first_ray(&self, eye: &PathRay, begun: &Emitted, (time, chance): (f32, f32)) -> PathRay {
+    /// The first ray; `None` if nothing comes so far of light from far away.
+    fn first_ray(&self, eye: &PathRay, begun: &Emitted, (time, chance): (f32, f32)) -> Option<PathRay> {
         let ray = Ray { time, ..Ray::new(begun.p, begun.d) };
-        let media = match begun.source {
-            Source::Point | Source::Surface(_) => media::around(self.cx.scene, &ray),
-            Source::Parallel | Source::Far => Default::default(),
+        let is_far = matches!(begun.source, Source::Parallel | Source::Far);
+        let media = match is_far {
+            _ if self.heeds_media => media::at(self.cx.scene, begun.p, time),
+            false => media::around(self.cx.scene, &ray),
+            true => Default::default(),
         };
-        let power = begun.power() / chance;
         let sampler = eye.sampler.apart(EMISSION_BRANCH);
         // Not the first depth: that is for what is seen directly.
-        PathRay { media, weight: power, throughput: power, depth: 1, ..PathRay::eye(ray, sampler) }
+        let first = PathRay { media, depth: 1, ..PathRay::eye(ray, sampler) };
+        let mut power = begun.power() / chance;
+        if is_far && let Some(volume) = self.volume(&media) {
+            let back = PathRay { ray: Ray { d: -ray.d, ..ray }, sampler: sampler.fork(LENS_BRANCH), ..first };
+            power *= self.see(volume, &back, (0.0, f32::INFINITY)).weight;
+        }
+        (!is_far || !power.is_black()).then_some(PathRay { weight: power, throughput: power, ..first })
     }
 
     fn follow_particle(
         &mut self,
         mut ray: PathRay,
-        (mut flight, mut from): (Flight, Point3),
+        mut flight: Flight,
         stamina: Stamina,
-        particle: &mut Particle,
+        particle: &mut Particle<'a>,
         mut parent: P::Id,
     ) {
         let start = ray.throughput.max();
@@ -122,55 +151,19 @@ impl<P: Probe> Walk<'_, P> {
             self.rays += 1;
             let id = self.announce(&ray, parent);
             parent = id;
-            let Some(hit) = self.cx.scene.closest_in_the_way(self.cx, &ray.ray, false, (self.probe, id))
-            else {
-                self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
-                return;
+            let onward = match self.particle_meets(&mut ray, &mut flight, particle, id) {
+                Met::Scattered(onward) => onward,
+                Met::Passed => continue,
+                Met::Ended => return,
             };
-            let before = ray.media;
-            let met = self.meet(&mut ray, &hit, |walk, s| walk.probe.surface(id, s.object, &hit, &s.surface));
-            let Some((s, crossing, left)) = met else { continue };
-            if P::RECORDS {
-                let black = Spectrum::BLACK;
-                let parts = Parts { arrived: left, emission: black, ambient: black, blurred_sky: black };
-                self.report_shaded(&PathRay { media: before, ..ray }, (&s, &crossing), &parts, id);
-            }
-            // Whoever looks at the back of something one-sided does not see it.
-            if self.cx.scene.material(s.object).is_one_sided() && !s.surface.is_outside(s.wo) {
-                self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
-                return;
-            }
-            let sampler = ray.sampler.fork(SCATTER_BRANCH);
-            let choice = if s.bsdf.has_choice() { sampler.d1(Dim::Lobe) } else { 0.0 };
-            let scattered = s.bsdf.scatter(s.wo_local, choice, sampler.d2(Dim::Scatter));
-            if let Some(through) = scattered.filter(|scattered| scattered.passes) {
-                ray = straight_on(&ray, (&s, &crossing), left * through.weight);
-                continue;
-            }
-            let own = self.density(flight, from, &s);
-            let there = 1.0 - s.bsdf.passing_chance(s.wo_local);
-            let arriving = ray.throughput * left / there;
-            from = s.surface.p;
-            let mut vertex = Vertex { s, crossing, arriving, own, other: 0.0, is_sharp: false, path: ray };
-            let next = scattered.and_then(|scattered| {
-                let weight = adjoint(&vertex.s, &scattered);
-                let d = vertex.s.frame.to_world(scattered.wi);
-                vertex.is_sharp = scattered.pdf.is_none();
-                let [pdf, back] = vertex.there_and_back(scattered.pdf, d);
-                flight = Flight::Direction(pdf);
-                particle.came_back(&vertex, back);
-                (!weight.is_black() && weight.is_finite())
-                    .then(|| scattered_on(&ray, (&vertex.s, &vertex.crossing), &scattered, left * weight))
-            });
-            if let Some(scattered) = scattered.filter(|_| P::RECORDS) {
-                let other = vertex.pdf(vertex.s.frame.to_world(scattered.wi), vertex.s.wo);
-                self.probe.chosen(&chosen(&vertex.s, &scattered, (&sampler, other)));
-            }
-            particle.vertices.push(vertex);
-            let Some(child) = next else {
+            let Some(Onward { child, told, .. }) = onward.filter(Onward::brings_something) else {
                 self.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
                 return;
             };
+            if let Some(told) = told {
+                self.probe.chosen(&told);
+            }
+            let sampler = ray.sampler.fork(SCATTER_BRANCH);
             ray = child;
             if particle.vertices.len() as u32 > stamina.sure {
                 let kept = kept(ray.throughput.max() / start);
@@ -181,6 +174,67 @@ impl<P: Probe> Walk<'_, P> {
                 ray.throughput = ray.throughput / kept;
             }
         }
+    }
+
+    /// Follows a particle to what scatters it next.
+    fn particle_meets(
+        &mut self,
+        ray: &mut PathRay,
+        flight: &mut Flight,
+        particle: &mut Particle<'a>,
+        id: P::Id,
+    ) -> Met {
+        let cx = self.cx;
+        let hit = cx.scene.closest_in_the_way(cx, &ray.ray, self.heeds_media, (self.probe, id));
+        let mut passed = Spectrum::ONE;
+        if let Some((floated, phase)) = self.float(ray, hit.map_or(f32::INFINITY, |hit| hit.t)) {
+            if P::RECORDS {
+                // What the medium sends out is seen from the eye.
+                self.report_floating(ray, &medium::Flight { sent: Spectrum::BLACK, ..floated }, id);
+            }
+            if let End::Scattered(t) = floated.end {
+                let left = self.arriving(&ray.media, ray.from, &ray.ray, t) * floated.weight;
+                let (vertex, onward) = self.deflected(ray, (phase, t), left);
+                let own = self.density(*flight, (particle.last(), &ray.ray), (vertex.p, 1.0));
+                let vertex = Vertex { arriving: ray.throughput * left, own, ..vertex };
+                return particle.add(vertex, Some(onward), flight);
+            }
+            passed = floated.weight;
+        }
+        let Some(hit) = hit else {
+            self.probe.stop(id, StopReason::MissedScene, Spectrum::BLACK);
+            return Met::Ended;
+        };
+        let before = ray.media;
+        let announce = |walk: &mut Self, s: &Shading| walk.probe.surface(id, s.object, &hit, &s.surface);
+        let Some((s, crossing, left)) = self.meet(ray, (&hit, passed), announce) else { return Met::Passed };
+        if P::RECORDS {
+            let black = Spectrum::BLACK;
+            let parts = Parts { arrived: left, emission: black, ambient: black, blurred_sky: black };
+            self.report_shaded(&PathRay { media: before, ..*ray }, (&s, &crossing), &parts, id);
+        }
+        // Whoever looks at the back of something one-sided does not see it.
+        if cx.scene.material(s.object).is_one_sided() && !s.surface.is_outside(s.wo) {
+            self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+            return Met::Ended;
+        }
+        let sampler = ray.sampler.fork(SCATTER_BRANCH);
+        let scattered = s.scattered(&sampler);
+        if let Some(through) = scattered.filter(|scattered| scattered.passes) {
+            *ray = straight_on(ray, (&s, &crossing), left * through.weight);
+            return Met::Passed;
+        }
+        let there = 1.0 - s.bsdf.passing_chance(s.wo_local);
+        let arriving = ray.throughput * left / there;
+        let onward = scattered.map(|scattered| {
+            let weight = left * adjoint(&s, &scattered);
+            Onward::of::<P>(ray, (&s, &crossing), (&scattered, weight), &sampler)
+        });
+        let p = s.surface.p;
+        let to = (p, s.surface.n_g.dot(s.wo).abs());
+        let own = self.density(*flight, (particle.last(), &ray.ray), to);
+        let vertex = Vertex::new(Place::Surface(s, crossing), p, arriving, *ray);
+        particle.add(Vertex { own, ..vertex }, onward, flight)
     }
 
     /// Tells of a part of the way, which brings nothing to the pixel by itself.
@@ -195,7 +249,7 @@ impl<P: Probe> Walk<'_, P> {
     /// How the camera sees a vertex of a particle, and what it brings there; `None` if it does not, or nothing.
     pub(in super::super) fn sighting(
         &mut self,
-        particle: &Particle,
+        particle: &Particle<'_>,
         index: usize,
         id: P::Id,
     ) -> Option<Sighting> {
@@ -204,9 +258,9 @@ impl<P: Probe> Walk<'_, P> {
             return None;
         }
         let view = &self.cx.scene.view;
-        let p = vertex.s.surface.p;
+        let p = vertex.p;
         let lens = vertex.path.sampler.fork(LENS_BRANCH).d2(Dim::Lens);
-        let seen = view.sees(p, lens, vertex.s.time)?;
+        let seen = view.sees(p, lens, vertex.time())?;
         let film = seen.film;
         let reach = view.filter.radius();
         let is_near = |x: f32, size: u32, reach: f32| x >= -reach && x <= size as f32 + reach;
@@ -215,8 +269,8 @@ impl<P: Probe> Walk<'_, P> {
         }
         let (d, _) = towards(p, seen.from);
         let is_first = index == 0 && particle.end.is_sharp();
-        let cos = vertex.s.surface.n_g.dot(d).abs();
-        let radiance = vertex.sent(d, is_first) * (cos * seen.importance);
+        let sent = vertex.sent(&self.cx.basis, d, is_first);
+        let radiance = sent * (vertex.cos(d) * seen.importance);
         if radiance.is_black() {
             return None;
         }
@@ -228,36 +282,30 @@ impl<P: Probe> Walk<'_, P> {
     }
 }
 
-impl Particle {
+impl<'a> Particle<'a> {
+    /// Where it scattered last, or began.
+    fn last(&self) -> Point3 {
+        self.vertices.last().map_or(self.end.p, |vertex| vertex.p)
+    }
+
+    /// Adds a vertex, from which it goes `onward` by a new `flight`.
+    fn add(&mut self, mut vertex: Vertex<'a>, onward: Option<Onward>, flight: &mut Flight) -> Met {
+        if let Some(onward) = &onward {
+            let [pdf, back] = vertex.go_on(onward);
+            *flight = Flight::Direction(pdf);
+            self.came_back(&vertex, back);
+        }
+        self.vertices.push(vertex);
+        Met::Scattered(onward)
+    }
+
     /// Notes with which density a walk comes from a vertex to what is before it, by that of the direction.
-    fn came_back(&mut self, from: &Vertex, pdf: f32) {
-        let p = from.s.surface.p;
+    fn came_back(&mut self, from: &Vertex<'_>, pdf: f32) {
+        let p = from.p;
         match self.vertices.last_mut() {
             Some(before) => before.other = before.by_area(pdf, p),
             None => self.other = self.end.by_area(pdf, p),
         }
-    }
-}
-
-/// How the direction came about that a walk goes on in; `other` is the density of the way back.
-pub(in super::super) fn chosen(
-    s: &Shading,
-    scattered: &Scattered,
-    (sampler, other): (&Sampler, f32),
-) -> Choice {
-    let cos = scattered.wi.z.abs();
-    let u = sampler.d2(Dim::Scatter);
-    let spread = scattered.pdf.is_some();
-    Choice {
-        by: if spread { ChosenBy::Lobe } else { ChosenBy::Sharp },
-        lobe: s.bsdf.lobes().nth(scattered.lobe).map(|lobe| lobe.name()),
-        f: scattered.pdf.filter(|_| cos > 0.0).map(|pdf| scattered.weight * (pdf / cos)),
-        cos: spread.then_some(cos),
-        pdf: scattered.pdf,
-        other_pdf: spread.then_some(other),
-        chance: if spread { 1.0 } else { scattered.chance },
-        random: spread.then(|| RandomNumbers::two(Dim::Scatter, u.to_array())),
-        ..Choice::sharp()
     }
 }
 

@@ -1,16 +1,23 @@
 //! The bodies along the way: where a ray is behind a surface, and what is absorbed before it.
 use durer_core::{
-    math::{Point3, Ray},
+    math::{Point2, Point3, Ray},
+    sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
 
-use durer_model::{Medium, Volume};
+use durer_model::{
+    Medium, Volume,
+    medium::{End, Flier, Flight, Phase},
+};
 
-use super::{super::shading::Shading, Walk};
+use super::{
+    super::shading::{MEDIUM_BRANCH, Shading},
+    Walk,
+};
 use crate::{
-    MediumStack,
+    Below, MediumStack, PathRay,
     media::{Crossing, Imbalance},
-    probe::Probe,
+    probe::{Choice, ChosenBy, Floating, Particle, Probe, RandomNumbers},
 };
 
 impl<P: Probe> Walk<'_, P> {
@@ -74,6 +81,86 @@ impl<'a, P: Probe> Walk<'a, P> {
         let scene = self.cx.scene;
         let fill = bodies.present(&scene.media, &self.cx.basis).fill;
         scene.volume_of(fill).filter(|_| self.heeds_media)
+    }
+
+    /// How far a ray gets in a volume on this part of its way.
+    pub(in super::super) fn fly(&self, volume: &Volume, ray: &PathRay, way: (f32, f32)) -> Flight {
+        let absorption = self.absorption(&ray.media);
+        let flier = Flier { basis: self.cx.basis, lanes: ray.lanes, absorption };
+        volume.fly(&flier, &ray.ray, way, &draws(ray))
+    }
+
+    /// What is seen through a volume, on this part of the way of a ray, of what is not scattered there.
+    pub(in super::super) fn see(&self, volume: &Volume, ray: &PathRay, way: (f32, f32)) -> Flight {
+        let weight = volume.pass(self.cx.basis, &ray.ray, way, &draws(ray)).share;
+        let sent = if volume.is_dark() { Spectrum::BLACK } else { self.fly(volume, ray, way).sent };
+        Flight { end: End::Through, weight, lanes: ray.lanes, passed: 1.0, sent }
+    }
+
+    /// The ray that a particle at `p` sends on, where `weight` is left and scattered.
+    pub(in super::super) fn deflect(
+        &self,
+        parent: &PathRay,
+        (phase, p): (&Phase, Point3),
+        weight: Spectrum,
+        branch: u32,
+    ) -> PathRay {
+        let u = parent.sampler.fork(branch).d2(Dim::Scatter);
+        let d = phase.deflected(parent.ray.d, u);
+        let cos = parent.ray.d.dot(d);
+        let weight = weight * phase.tint(&self.cx.basis, cos);
+        let ray = Ray { time: parent.ray.time, ..Ray::new(p, d) };
+        let density = Some(phase.density(cos));
+        PathRay { density, is_blurred: true, ..parent.child((p, ray), weight, branch) }
+    }
+
+    /// Tells what floats on the way of a ray, and the particle that it met.
+    pub(in super::super) fn report_floating(&mut self, ray: &PathRay, flight: &Flight, id: P::Id) {
+        let (scene, basis) = (self.cx.scene, self.cx.basis);
+        let fill = ray.media.present(&scene.media, &basis).fill;
+        let at = |t| {
+            let p = ray.ray.at(t);
+            let (sigma_a, sigma_s, g) = match (&ray.below, self.volume(&ray.media)) {
+                (Some(Below { inside, .. }), _) => (inside.sigma_a, inside.sigma_s, inside.phase.g()),
+                (None, Some(volume)) => {
+                    let (sigma_a, sigma_s) = volume.coefficients(basis, p);
+                    (sigma_a, sigma_s, volume.phase().g())
+                }
+                (None, None) => return None,
+            };
+            Some(Particle { t, p, sigma_a, sigma_s, g })
+        };
+        let particle = match flight.end {
+            End::Scattered(t) => at(t),
+            End::Through => None,
+        };
+        let Flight { weight, sent, passed, .. } = *flight;
+        self.probe.floating(id, &Floating { fill, weight, sent, passed, particle });
+    }
+}
+
+/// The random numbers of a ray's flight.
+pub(in super::super) fn draws(ray: &PathRay) -> impl Fn(u32) -> Point2 + use<> {
+    let sampler = ray.sampler.fork(MEDIUM_BRANCH);
+    move |i| if i == 0 { sampler.d2(Dim::Medium) } else { sampler.fork(i).d2(Dim::Medium) }
+}
+
+/// How the ray came about that a particle sends on, which lives with probability `kept`.
+pub(in super::super) fn deflection(
+    (sampler, phase): (&Sampler, &'static str),
+    child: &PathRay,
+    kept: f32,
+) -> Choice {
+    let u = sampler.d2(Dim::Scatter);
+    Choice {
+        by: ChosenBy::Phase,
+        lobe: Some(phase),
+        f: child.density.map(|pdf| child.weight * pdf),
+        cos: Some(1.0),
+        pdf: child.density,
+        kept,
+        random: Some(RandomNumbers::two(Dim::Scatter, [u.x, u.y])),
+        ..Choice::sharp()
     }
 }
 

@@ -27,10 +27,11 @@ use crate::{
     probe::{Probe, RayKind, StopReason},
 };
 
-pub(super) use medium::span;
+pub(super) use medium::{deflection, draws, span};
 pub(super) use report::Parts;
 pub(super) use rules::Rules;
 pub use rules::{Lights, Shadows};
+pub(super) use shadow::between;
 
 /// Surfaces passed in a row at most: each is a step of the recursion, though no bounce.
 const MOST_PASSED: u32 = 1000;
@@ -50,6 +51,11 @@ impl<'a, P: Probe> Walk<'a, P> {
     /// The walk of one sample.
     pub(super) fn new(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
         Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default(), heeds_media: false }
+    }
+
+    /// The same, for which counts what floats in places, if that is so anywhere.
+    pub(super) fn in_media(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
+        Self { heeds_media: !cx.scene.volumes.is_empty(), ..Self::new(rules, cx, probe) }
     }
 
     /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in, or follows a recorded ray.

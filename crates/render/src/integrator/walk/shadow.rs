@@ -69,6 +69,11 @@ impl Floating<'_> {
     }
 }
 
+/// The segment from a place among particles to another point.
+pub(in super::super) fn between(from: Point3, to: Point3, time: f32) -> Ray {
+    Ray { t_max: 1.0f32.next_down(), time, ..Ray::new(from, to - from) }
+}
+
 impl<P: Probe> Walk<'_, P> {
     /// Sends the shadow ray; the light that arrives.
     pub(in super::super) fn shadow(
@@ -100,6 +105,24 @@ impl<P: Probe> Walk<'_, P> {
         let media = crossing.media(s.side_of(sample.wi));
         PathRay { media, ..parent.child((s.surface.p, ray), weight, LIGHT_BRANCH + light as u32) }
     }
+
+    /// The ray to a light from a place among particles.
+    pub(in super::super) fn shadow_path_at(
+        &self,
+        parent: &PathRay,
+        p: Point3,
+        light: usize,
+        weight: Spectrum,
+        sample: &LightSample,
+    ) -> PathRay {
+        let time = parent.ray.time;
+        let ray = match sample.point {
+            Some(point) => between(p, point, time),
+            None => Ray { time, ..Ray::new(p, sample.wi) },
+        };
+        parent.child((p, ray), weight, LIGHT_BRANCH + light as u32)
+    }
+
     /// Sends a shadow ray to a light at a point, or infinitely far away, which sends `unoccluded`; the light that arrives.
     pub(in super::super) fn send_shadow(
         &mut self,
