@@ -23,6 +23,7 @@ mod options;
 pub mod picture;
 mod prepare;
 mod sequence;
+mod settings;
 mod studio;
 mod transport;
 pub mod tree;

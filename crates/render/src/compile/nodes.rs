@@ -4,7 +4,7 @@ use std::{collections::HashMap, sync::Arc};
 use durer_model::{
     camera::{CAMERAS, Camera},
     filter::{FILTERS, Filter},
-    material::{self, MATERIALS, Material},
+    material::{self, ForceDiffuse, MATERIALS, Material},
     shape::{Geometry, SHAPES},
     texture::{self, Texture},
 };
@@ -125,6 +125,9 @@ impl Builder<'_> {
             let (built, said) = self.apart(MATERIALS, "material", &node, (&self.desc.textures, before));
             self.diagnostics.append(said);
             materials.extend(built);
+        }
+        if self.desc.options.force_diffuse {
+            return materials.into_iter().map(|own| Box::new(ForceDiffuse(own)) as _).collect();
         }
         materials
     }
