@@ -116,7 +116,8 @@ pub(crate) fn prepared(
     if integrator.facts().looks {
         check_content(desc, &scene, options.nothing, diagnostics)?;
     }
-    let eye = integrator.eye_samples(settings::samples(desc, options, integrator.facts().output, diagnostics));
+    let eye =
+        integrator.eye_samples(settings::samples(desc, options, integrator.facts().output, diagnostics));
     filter(desc, &mut scene, integrator.facts().output, eye.total, diagnostics);
     let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
     let carried = options.carried.unwrap_or(of_film);

@@ -46,7 +46,12 @@ fn crop(desc: &SceneDesc, size: [u32; 2]) -> Option<Tile> {
 }
 
 /// Averages of object numbers mean nothing, and a mean depth little: data pictures take one sample unless told.
-pub(crate) fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mut Diagnostics) -> u32 {
+pub(crate) fn samples(
+    desc: &SceneDesc,
+    options: &Options,
+    output: Output,
+    diagnostics: &mut Diagnostics,
+) -> u32 {
     let asked = options.samples.map(|n| n.max(1));
     match output {
         Output::Data(Show::Id) => {

@@ -117,6 +117,8 @@ pub struct OptionsDesc {
     pub disable_texture_filtering: bool,
     /// Every surface scatters what it scatters evenly.
     pub force_diffuse: bool,
+    /// A factor on how long edges of displaced shapes may be.
+    pub displacement_edge_scale: Option<f32>,
 }
 
 /// A part of the picture.

@@ -24,9 +24,8 @@ pub fn xyz_from_rec709() -> DMat3 {
 /// What X, Y, Z under one white become for those who are used to another: Bradford's sharpened cones (Lam 1985) are scaled, each
 /// by itself.
 pub fn adaptation([from, to]: [[f64; 2]; 2]) -> DMat3 {
-    let cones = DMat3::from_cols_array(&[
-        0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296,
-    ]);
+    let cones =
+        DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296]);
     let [from, to] = [from, to].map(|white| cones * tristimulus(white));
     cones.inverse() * DMat3::from_diagonal(to / from) * cones
 }

@@ -169,6 +169,9 @@ impl Writer<'_> {
                 self.line(&format!("Option \"bool {name}\" true"));
             }
         }
+        if let Some(scale) = options.displacement_edge_scale {
+            self.line(&format!("Option \"float displacementedgescale\" {scale}"));
+        }
         if let Some((start, end)) = self.times.seconds() {
             self.line(&format!("TransformTimes {start} {end}"));
         }

@@ -6,6 +6,7 @@
 
 mod automatic;
 mod camera;
+mod displace;
 mod geometry;
 mod kept;
 mod lights;

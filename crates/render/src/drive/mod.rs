@@ -26,10 +26,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use durer_core::{
-    sampling::Sampler,
-    spectrum::Carried,
-};
+use durer_core::{sampling::Sampler, spectrum::Carried};
 
 use crate::{
     Contribution, ImbalanceTotals, SampleCx, Scene, Value,
@@ -328,7 +325,9 @@ impl<'a> Job<'a> {
 /// where nothing was hit.
 fn film_value(cx: &SampleCx<'_>, out: &Contribution, gain: f32) -> Option<[f32; 3]> {
     match out.value {
-        Value::Radiance(radiance) => Some(cx.scene.view.sensor.held(cx.basis.to_rgb(radiance).map(|v| v * gain))),
+        Value::Radiance(radiance) => {
+            Some(cx.scene.view.sensor.held(cx.basis.to_rgb(radiance).map(|v| v * gain)))
+        }
         Value::Data(data) => data,
     }
 }

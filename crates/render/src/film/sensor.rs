@@ -52,8 +52,8 @@ impl Sensor {
             return Self::default();
         }
         let xyz = xyz_from_rec709();
-        let balance = white
-            .map(|kelvin| rows(xyz.inverse() * adaptation([daylight(kelvin.into()), D65]) * xyz));
+        let balance =
+            white.map(|kelvin| rows(xyz.inverse() * adaptation([daylight(kelvin.into()), D65]) * xyz));
         Self { own: Some(Box::new(Own { xyz: rows(xyz), most: most.unwrap_or(f32::INFINITY), balance })) }
     }
 

@@ -42,8 +42,7 @@ impl Function {
         Self::Gaussian,
     ];
     /// The words for them.
-    const WORDS: [&str; 6] =
-        ["step", "diagonal", "disk", "checkerboard", "rotatedcheckerboard", "gaussian"];
+    const WORDS: [&str; 6] = ["step", "diagonal", "disk", "checkerboard", "rotatedcheckerboard", "gaussian"];
 
     /// Its value at a point of the unit square.
     pub fn at(self, p: Point2) -> f32 {
@@ -132,5 +131,33 @@ impl Transport for Function {
         probe.result(id, radiance);
         out.value = Value::Radiance(radiance);
         out.rays = 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_have_the_mean_1() {
+        const N: u32 = 1500;
+        for (function, word) in Function::ALL.into_iter().zip(Function::WORDS) {
+            let at = |i: u32| (i as f32 + 0.5) / N as f32;
+            let row = |y: u32| (0..N).map(|x| f64::from(function.at(Point2::new(at(x), at(y))))).sum::<f64>();
+            let mean = (0..N).map(row).sum::<f64>() / f64::from(N * N);
+            assert!((mean - 1.0).abs() < 1e-3, "{word}: {mean}");
+        }
+    }
+
+    #[test]
+    fn functions_are_what_they_are_called() {
+        let at = |function: Function, x: f32, y: f32| function.at(Point2::new(x, y));
+        assert_eq!((at(Function::Step, 0.4, 0.9), at(Function::Step, 0.6, 0.1)), (2.0, 0.0));
+        assert_eq!((at(Function::Diagonal, 0.4, 0.5), at(Function::Diagonal, 0.6, 0.5)), (2.0, 0.0));
+        assert_eq!((at(Function::Disk, 0.5, 0.01), at(Function::Disk, 0.1, 0.1)), (4.0 * FRAC_1_PI, 0.0));
+        let board = Function::Checkerboard;
+        assert_eq!((at(board, 0.05, 0.05), at(board, 0.15, 0.05), at(board, 0.15, 0.15)), (0.0, 2.0, 0.0));
+        let (middle, edge) = (at(Function::Gaussian, 0.5, 0.5), at(Function::Gaussian, 1.0, 0.5));
+        assert!((edge / middle - (-2.0f32).exp()).abs() < 1e-6, "{middle} {edge}");
     }
 }

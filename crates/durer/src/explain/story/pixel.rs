@@ -65,8 +65,7 @@ fn on_film(sample: &Sample) -> Option<String> {
     let (gain, film) = (eye.gain, eye.developing);
     let steps: Vec<String> = [
         (gain != 1.0).then(|| format!("times {} by lens and speed of the film", number(gain.into()))),
-        (film.clamp != 1.0)
-            .then(|| format!("times {} as the film takes no more", number(film.clamp.into()))),
+        (film.clamp != 1.0).then(|| format!("times {} as the film takes no more", number(film.clamp.into()))),
         film.balance.map(|_| "balanced for the white of the film".to_owned()),
     ]
     .into_iter()

@@ -36,14 +36,23 @@ pub(super) const FILM: Schema = Schema {
         )
         .unit("px")
         .range(0.0, 1e6),
-        ParamSpec::new("sensor", ParamType::Choice(&SENSORS), ParamDefault::Text("cie1931"), "only the default"),
+        ParamSpec::new(
+            "sensor",
+            ParamType::Choice(&SENSORS),
+            ParamDefault::Text("cie1931"),
+            "only the default",
+        ),
         ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").above(0.0, f32::INFINITY),
         ParamSpec::float("exposuretime", 1.0, "multiplies the picture, 1 is 1")
             .unit("s")
             .above(0.0, f32::INFINITY),
-        ParamSpec::float("whitebalance", 0.0, "temperature of the daylight that is shown as white; 0 leaves colours")
-            .unit("K")
-            .range(0.0, 40_000.0),
+        ParamSpec::float(
+            "whitebalance",
+            0.0,
+            "temperature of the daylight that is shown as white; 0 leaves colours",
+        )
+        .unit("K")
+        .range(0.0, 40_000.0),
         ParamSpec::float("scale", 1.0, "multiplies the picture").above(0.0, f32::INFINITY),
         ParamSpec::new(
             "maxcomponentvalue",
@@ -179,7 +188,10 @@ pub(super) fn film(
 fn white_balance(args: &mut Args<'_>) -> Option<f32> {
     let kelvin = args.float("whitebalance");
     if kelvin > 0.0 && kelvin < COLDEST {
-        args.error("whitebalance", format!("\"whitebalance\" is {kelvin}, expected 0 or {COLDEST} K and more"));
+        args.error(
+            "whitebalance",
+            format!("\"whitebalance\" is {kelvin}, expected 0 or {COLDEST} K and more"),
+        );
     }
     let sensor = args.text("sensor");
     if args.is_sound() && sensor != SENSORS[0] {

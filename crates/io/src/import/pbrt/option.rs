@@ -1,7 +1,5 @@
 //! `Option`: what holds for the whole scene.
-use durer_scene::{
-    Args, Data, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema, Severity,
-};
+use durer_scene::{Args, Data, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema, Severity};
 
 use super::{input::Reported, lexer::Token, parser::Parser};
 
@@ -17,9 +15,14 @@ const OPTION: Schema = Schema {
     aliases: &[],
     doc: "What holds for the whole scene.",
     params: &[
-        flag("disablepixeljitter", "all samples of a pixel take its middle, that of the lens and of the exposure"),
+        flag(
+            "disablepixeljitter",
+            "all samples of a pixel take its middle, that of the lens and of the exposure",
+        ),
         flag("disabletexturefiltering", "textures are looked at in points"),
         flag("disablewavelengthjitter", "all samples carry the same wavelengths"),
+        ParamSpec::float("displacementedgescale", 1.0, "factor on the edge length of displaced shapes")
+            .above(0.0, f32::INFINITY),
         flag("forcediffuse", "every surface scatters evenly what it scatters"),
         path("msereferenceimage", "no effect"),
         path("msereferenceout", "no effect"),
@@ -43,12 +46,17 @@ const REMARKS: [(&str, Severity, &str, &str); 5] = [
         "\"rendercoordsys\" changes nothing: placements are composed in double precision, and rendered around the camera",
         "",
     ),
-    ("wavefront", Severity::Note, "\"wavefront\" changes nothing: it says how pbrt-v4 computes, not what", ""),
+    (
+        "wavefront",
+        Severity::Note,
+        "\"wavefront\" changes nothing: it says how pbrt-v4 computes, not what",
+        "",
+    ),
     (
         "pixelstats",
         Severity::Warning,
         "\"pixelstats\" writes no files",
-        "\"durer cost\" maps rays and noise by pixel, and the integrator \"cast\" with \"cost\" shows what it takes to find hits",
+        "\"durer view\" shows the rays and the noise of each pixel, the integrator \"cast\" with \"cost\" what its first hit takes",
     ),
     (
         "msereferenceimage",
@@ -97,6 +105,9 @@ impl Parser<'_> {
             if args.is_set(name) {
                 *into = args.bool(name);
             }
+        }
+        if args.is_set("displacementedgescale") {
+            options.displacement_edge_scale = Some(args.float("displacementedgescale"));
         }
         if args.is_set("seed") {
             desc.film.seed = Some(u64::from(args.int("seed") as u32));
