@@ -1,6 +1,6 @@
 //! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
 use durer_scene::{
-    Args, Crop, Diagnostics, FilmDesc, Location, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
+    Args, Crop, Diagnostics, FilmDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
     Schema, counted,
 };
 
@@ -94,6 +94,8 @@ const SENSORS: [&str; 18] = [
     "sony_ilce_7rm3",
     "sony_ilce_9",
 ];
+/// What only pictures of more layers have.
+const LAYERS: [&str; 4] = ["coordinatesystem", "nbuckets", "lambdamin", "lambdamax"];
 /// The coldest glow that can be balanced.
 const COLDEST: f32 = 1000.0;
 
@@ -139,12 +141,8 @@ pub(super) const STRATIFIED: Schema = Schema {
     ],
 };
 
-/// Reads `Film`. Returns what it asks for in vain: parameter (or kind) and where.
-pub(super) fn film(
-    node: &Node,
-    film: &mut FilmDesc,
-    diagnostics: &mut Diagnostics,
-) -> Vec<(&'static str, Location)> {
+/// Reads `Film`.
+pub(super) fn film(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagnostics) {
     let known = FILM.name == node.kind || FILM.aliases.contains(&node.kind.as_str());
     if node.kind == "image" {
         let hint = "this is pbrt-v3's word; pbrt-v4 writes \"rgb\"";
@@ -177,11 +175,16 @@ pub(super) fn film(
     film.white_balance = white_balance(&mut args);
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
     film.crop = crop(&mut args);
-    let mut vain = Vec::new();
-    if node.kind == "gbuffer" {
-        vain.push(("gbuffer", node.at.clone()));
+    for name in LAYERS {
+        if args.is_set(name) {
+            args.warning(name, format!("\"{name}\" has no effect: the picture has red, green and blue"));
+        }
     }
-    vain
+    if node.kind == "gbuffer" {
+        let message = "film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own";
+        let hint = "--integrator cast --show normal, depth, albedo, uv or id, to .exr";
+        diagnostics.warning(node.at.clone(), message).hint(hint);
+    }
 }
 
 /// The daylight that is shown as white, in kelvin; `None` where colours are left as they are.

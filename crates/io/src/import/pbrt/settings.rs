@@ -53,9 +53,7 @@ impl Parser<'_> {
     pub(super) fn film(&mut self, head: Token) -> Result<(), Reported> {
         let node = self.node(head, "a kind of film")?;
         self.only("Film", self.world.desc.film.width.is_some(), head);
-        for (what, at) in film::film(&node, &mut self.world.desc.film, self.input.diagnostics) {
-            self.warn_once(what, at, format!("the film's \"{what}\" is not supported yet; it is ignored"));
-        }
+        film::film(&node, &mut self.world.desc.film, self.input.diagnostics);
         Ok(())
     }
 
