@@ -24,6 +24,7 @@ mod particles;
 pub mod picture;
 mod prepare;
 mod sequence;
+mod settings;
 mod studio;
 mod transport;
 pub mod tree;

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use durer_accel::BuildOptions;
 use durer_core::{
     math::Vector3,
-    sampling::SamplerKind,
     spectrum::{Basis, Carried},
 };
 use durer_io::import::Imported;
@@ -12,21 +11,19 @@ use durer_model::filter::Filter;
 use durer_render::{
     Object, Scene,
     compile::{self, CompileOptions},
-    drive::{Antialias, Job, Nesting, Passes, Settings},
+    drive::{Antialias, Jitter, Job, Passes, Settings},
     film::Tile,
     integrator::{Integrator, Output, Show},
 };
-use durer_scene::{Data, Diagnostics, Location, Missing, Node, SceneDesc};
+use durer_scene::{Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{
-    Options, environment, particles,
+    Options, environment, particles, settings,
     transport::{integrator_node, registered_word, rules},
 };
 
 /// Pixels of a picture whose size nobody asked for.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
-/// Samples per pixel if nobody asked for a number.
-const DEFAULT_SAMPLES: u32 = 64;
 /// Fewest samples per pixel that a filter with negative lobes copes with.
 const LEAST_WITH_LOBES: u32 = 16;
 /// Most pixels along an edge: pictures beyond are typing errors.
@@ -116,24 +113,19 @@ pub(crate) fn prepared(
     let scene = compile(&compile_options, diagnostics);
     let (mut scene, integrator) = (scene?, integrator?);
     size?;
-    check_content(desc, &scene, options.nothing, diagnostics)?;
-    let eye = integrator.eye_samples(samples(desc, options, integrator.facts().output, diagnostics));
+    if integrator.facts().looks {
+        check_content(desc, &scene, options.nothing, diagnostics)?;
+    }
+    let eye =
+        integrator.eye_samples(settings::samples(desc, options, integrator.facts().output, diagnostics));
     filter(desc, &mut scene, integrator.facts().output, eye.total, diagnostics);
     let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
     let carried = options.carried.unwrap_or(of_film);
     check_antialias(options, &scene, (&*integrator, carried), diagnostics);
     particles::check(&scene, &*integrator, diagnostics)?;
     check_walks(&scene, &*integrator, integrator_node, diagnostics);
-    let settings = Settings {
-        samples: eye.total,
-        sampler: options.sampler.unwrap_or_else(|| sampler(desc)),
-        nesting: Nesting { time: eye.time, lens: eye.lens },
-        seed: options.seed.or(desc.film.seed).unwrap_or(0),
-        threads: options.threads.unwrap_or_else(all_cores),
-        crop: options.crop.or_else(|| crop(desc, [width, height])),
-        antialias: options.antialias,
-        carried,
-    };
+    let settings = settings::settings(desc, options, &scene.view, (eye, carried));
+    check_jitter(desc, &settings, diagnostics);
     Some(Prepared {
         scene,
         integrator,
@@ -142,14 +134,6 @@ pub(crate) fn prepared(
         material_names: material_names(desc),
         settings,
     })
-}
-
-/// The part of the picture that the file asks for.
-fn crop(desc: &SceneDesc, size: [u32; 2]) -> Option<Tile> {
-    let film = &desc.film;
-    let from = [film.width.unwrap_or(size[0]), film.height.unwrap_or(size[1])];
-    let [x0, x1, y0, y1] = film.crop?.pixels(from, size);
-    Some(Tile { x0, y0, x1, y1 })
 }
 
 /// Complains about a scene without geometry; `None` if that shall be an error and no sky of its own can be seen either.
@@ -233,6 +217,18 @@ fn check_antialias(
     }
 }
 
+/// Says what options leave out in vain.
+fn check_jitter(desc: &SceneDesc, settings: &Settings, diagnostics: &mut Diagnostics) {
+    if settings.wavelengths == Jitter::Middle && settings.carried == Carried::Rgb {
+        let message = "\"disablewavelengthjitter\" changes nothing: rays carry red, green and blue";
+        diagnostics.note(Location::None, message).hint("--spectral has them carry wavelengths");
+    }
+    if desc.options.disable_pixel_jitter && settings.antialias != Antialias::Supersample {
+        let message = "\"disablepixeljitter\" does not move the places that adaptive antialiasing looks at";
+        diagnostics.warning(Location::None, message).hint("leave --antialias out");
+    }
+}
+
 /// Says what is drawn as a matte body because the integrator does not follow light below its surface.
 fn check_walks(scene: &Scene, integrator: &dyn Integrator, node: &Node, diagnostics: &mut Diagnostics) {
     let facts = integrator.facts();
@@ -301,37 +297,6 @@ fn picture_size(desc: &SceneDesc, options: &Options, diagnostics: &mut Diagnosti
     Some(size)
 }
 
-/// Averages of object numbers mean nothing, and a mean depth little: data pictures take one sample unless told.
-fn samples(desc: &SceneDesc, options: &Options, output: Output, diagnostics: &mut Diagnostics) -> u32 {
-    let asked = options.samples.map(|n| n.max(1));
-    match output {
-        Output::Data(Show::Id) => {
-            if asked.is_some_and(|n| n > 1) {
-                diagnostics
-                    .warning(Location::None, "object ids cannot be averaged: one sample per pixel is taken");
-            }
-            1
-        }
-        Output::Data(_) => asked.unwrap_or(1),
-        Output::Radiance | Output::Survey(_) => asked.or(desc.film.samples).unwrap_or(DEFAULT_SAMPLES).max(1),
-    }
-}
-
-fn sampler(desc: &SceneDesc) -> SamplerKind {
-    match desc.sampler.as_ref().map(|n| n.kind.as_str()) {
-        Some("stratified") if !is_jittered(desc) => SamplerKind::Regular,
-        // pbrt's other sampler whose noise is fine-grained.
-        Some("pmj02bn") => SamplerKind::ZSobol,
-        word => word.and_then(SamplerKind::from_word).unwrap_or_default(),
-    }
-}
-
-/// What a stratified sampler says of it; it does unless told otherwise.
-fn is_jittered(desc: &SceneDesc) -> bool {
-    let jitter = desc.sampler.as_ref().and_then(|node| node.params.get("jitter"));
-    jitter.is_none_or(|param| param.data != Data::Bools(vec![false]))
-}
-
 /// Data pictures show their own pixels; and too few samples of either sign may cancel each other.
 fn filter(desc: &SceneDesc, scene: &mut Scene, output: Output, samples: u32, diagnostics: &mut Diagnostics) {
     let named = desc.filter.as_ref();
@@ -342,8 +307,4 @@ fn filter(desc: &SceneDesc, scene: &mut Scene, output: Output, samples: u32, dia
         let at = named.map_or(Location::None, |node| node.at.clone());
         diagnostics.warning(at, message).hint(format!("take {LEAST_WITH_LOBES} samples or more"));
     }
-}
-
-fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get())
 }

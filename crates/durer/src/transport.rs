@@ -9,7 +9,7 @@ use durer_scene::{Data, Diagnostics, Location, Node, Param, ParamDefault, ParamS
 
 use crate::{Distribution, Options};
 
-/// The word of the integrator that answers to `kind`, or stands in for it.
+/// The word of the integrator that answers to `kind`.
 pub(crate) fn registered_word(kind: &str) -> String {
     let entry = INTEGRATORS.iter().find(|e| e.answers_to(kind));
     entry.map_or("path", |e| e.schema.name).to_owned()
@@ -64,13 +64,6 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
         (None, Some(node)) => node,
         (None, None) => compile::default_integrator(desc),
     };
-    if let Some(other) = compile::stand_in_integrator(&node, desc) {
-        // Not of those that we have: the default one stands in, and the wishes are for it.
-        let message =
-            format!("integrator \"{}\" is not supported yet; \"{}\" is used", node.kind, other.kind);
-        diagnostics.warning(node.at.clone(), message);
-        node = other;
-    }
     node = with_usual_depth(desc, node);
     if !desc.media.is_empty() && !HEED_MEDIA.contains(&registered_word(&node.kind).as_str()) {
         let names: Vec<_> = desc.media.iter().map(|medium| format!("\"{}\"", medium.name)).collect();

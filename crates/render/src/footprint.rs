@@ -98,6 +98,7 @@ mod tests {
             height: SIZE[1],
             filter: Filter::pixel(),
             speed: 1.0,
+            sensor: Default::default(),
         }
     }
 

@@ -9,6 +9,8 @@ use durer_model::{
     filter::Filter,
 };
 
+use crate::film::Sensor;
+
 /// The camera in its place, and the picture it takes.
 #[derive(Debug)]
 pub struct View {
@@ -29,6 +31,8 @@ pub struct View {
     pub filter: Filter,
     /// What the picture is multiplied with: the film's speed, ISO 100 is 1.
     pub speed: f32,
+    /// What the film makes of that.
+    pub sensor: Sensor,
 }
 
 /// A point as the camera sees it, in render space.

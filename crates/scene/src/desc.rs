@@ -94,12 +94,31 @@ pub struct FilmDesc {
     pub iso: Option<f32>,
     /// Seconds for which the film is exposed, as far as brightness goes; 1 leaves pictures as they are.
     pub exposure_seconds: Option<f32>,
+    /// The temperature of the daylight that it shows as white, in kelvin; what sends as Rec. 709's white if `None`.
+    pub white_balance: Option<f32>,
+    /// The most that a sample's X, Y or Z may be: brighter ones are scaled down.
+    pub max_component_value: Option<f32>,
     /// The part of the picture that is wanted.
     pub crop: Option<Crop>,
     /// What changes every random number.
     pub seed: Option<u64>,
     /// Where the file wants the picture written; shown by `info`, never written to unasked.
     pub filename: Option<String>,
+}
+
+/// What holds for all of a scene: pbrt-v4's options.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct OptionsDesc {
+    /// All samples of a pixel go through its middle and that of the lens, at half exposure.
+    pub disable_pixel_jitter: bool,
+    /// All samples carry the same wavelengths, where they carry some.
+    pub disable_wavelength_jitter: bool,
+    /// Textures are looked at in points.
+    pub disable_texture_filtering: bool,
+    /// Every surface scatters what it scatters evenly.
+    pub force_diffuse: bool,
+    /// A factor on how long edges of displaced shapes may be.
+    pub displacement_edge_scale: Option<f32>,
 }
 
 /// A part of the picture.
@@ -213,6 +232,8 @@ pub struct SceneDesc {
     pub cameras: Vec<CameraDesc>,
     /// Picture settings.
     pub film: FilmDesc,
+    /// What is left out, so that something else is seen better.
+    pub options: OptionsDesc,
     /// Reconstruction filter.
     pub filter: Option<Node>,
     /// Sampler.

@@ -20,7 +20,7 @@ pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
     AnimationDesc, CameraDesc, Crop, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface,
-    MediumRef, NamedNode, Node, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
+    MediumRef, NamedNode, Node, OptionsDesc, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};

@@ -126,7 +126,7 @@ fn a_picture_tells_how_it_was_made() {
 #[test]
 fn an_integrator_that_stands_in_is_named_as_what_it_is() {
     for (word, said, ours) in
-        [("function", "not supported yet", "path"), ("mlt", "without mutations", "bdpt")]
+        [("simplevolpath", "surfaces, at which", "volpath"), ("mlt", "without mutations", "bdpt")]
     {
         let place = Place::new().with("a.pbrt", &format!("Integrator \"{word}\"\n{SPHERE}"));
         let ran = place.done("render a.pbrt --spp 1");

@@ -77,7 +77,7 @@ impl LightColor {
 }
 
 /// The logarithm of what a black body sends at a wavelength in nm, up to a constant.
-fn planck(kelvin: f32, nm: f64) -> f64 {
+pub(super) fn planck(kelvin: f32, nm: f64) -> f64 {
     // h c / k, in nm K.
     const C2: f64 = 1.438_776_877e7;
     let x = C2 / (nm * f64::from(kelvin));

@@ -17,6 +17,7 @@ mod observer;
 mod sampled;
 mod upsample;
 mod wavelengths;
+mod white;
 
 pub use basis::{Basis, Carried, Lane};
 pub use color::{Color, luminance};
@@ -28,3 +29,4 @@ pub use metal::{conductor, conductor_of, curve, extinction};
 pub use named::{Named, named, named_curve, named_light, spectrum_names};
 pub use sampled::{HELIUM_D, HUES, Sampled};
 pub use wavelengths::Wavelengths;
+pub use white::{D65, adaptation, daylight, tristimulus, xyz_from_rec709};

@@ -36,6 +36,10 @@ struct Sample {
 }
 
 impl Sample {
+    /// What arrives along the eye ray, before camera and film make something of it.
+    fn arriving(&self) -> [f64; 3] {
+        self.tree.nodes.first().map_or(self.rgb, |eye| words::rgb(&self.tree.basis, eye.result))
+    }
     fn is_finite(&self) -> bool {
         self.rgb.iter().all(|v| v.is_finite())
     }

@@ -69,6 +69,9 @@ impl Writer<'_> {
         };
         let mut args = Args::check(node, entry.schema, &self.desc.textures, &mut said)
             .with_assets(self.whole.assets, Missing::Warn);
+        if node.params.get("displacement").is_some() {
+            self.warn(format!("\"{called}\" is written as it is before it is displaced"));
+        }
         match (entry.build)(&mut args) {
             Some(Geometry::Mesh(mesh)) => vec![mesh],
             Some(Geometry::Shapes(parts)) => {

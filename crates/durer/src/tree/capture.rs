@@ -130,6 +130,7 @@ impl Subject<'_> {
             .map(|(id, n)| node(self.prepared, &recorded.basis, id, n))
             .collect();
         let eye = recorded.eye.as_ref();
+        let developing = eye.map(|eye| eye.developing);
         let mut tree = Tree {
             version: VERSION,
             durer: env!("CARGO_PKG_VERSION").to_owned(),
@@ -145,6 +146,8 @@ impl Subject<'_> {
                 .filter(|_| !is_adaptive || data.is_some())
                 .map(|eye| Number(eye.filter_weight)),
             gain: eye.map(|eye| eye.gain).filter(|gain| *gain != 1.0).map(Number),
+            clamp: developing.map(|film| film.clamp).filter(|clamp| *clamp != 1.0).map(Number),
+            balance: developing.and_then(|film| film.balance).map(|rows| rows.map(rgb)),
             film: eye.map(|eye| eye.film.map(Number)).unwrap_or_default(),
             lens: eye.and_then(|eye| eye.lens).map(|l| l.map(Number)),
             time: eye.map(|eye| Number(eye.time)).unwrap_or_default(),

@@ -49,6 +49,12 @@ pub struct Tree {
     /// eye ray's result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain: Option<Number>,
+    /// By how much the film scales that down because it is too bright, if it does: `rgb` is that much darker.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamp: Option<Number>,
+    /// What becomes of red, green and blue on a film that calls another light white, a row for each; the last step to `rgb`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance: Option<[Rgb; 3]>,
     /// Where in the picture the sample lies, in pixels from the upper left corner.
     pub film: [Number; 2],
     /// Where on the lens the eye ray starts, in metres right of and above its centre; null for a pinhole.

@@ -1,8 +1,9 @@
 //! What follows from a ray tree as documented: who follows whom, and the sample's value.
 use super::{
     document::{Node, Tree},
-    number::Place,
+    number::{Place, plain},
 };
+use crate::film::Developing;
 
 impl Node {
     /// True if the ray was given up before it was traced.
@@ -30,10 +31,12 @@ impl Tree {
         children
     }
     /// The sample's value, folded from the leaves: `local` plus weight times result of each child, in order, in single
-    /// precision; and times `gain`. The bits of `rgb` for radiance.
+    /// precision; times `gain`, times `clamp`, and then `balance`d. The bits of `rgb` for radiance.
     pub fn fold(&self) -> [f32; 3] {
         let gain = self.gain.map_or(1.0, |gain| gain.0);
-        self.radiance().map(|v| v * gain)
+        let clamp = self.clamp.map_or(1.0, |clamp| clamp.0);
+        let balance = self.balance.map(|rows| rows.map(plain));
+        Developing { clamp, balance }.of(self.radiance().map(|v| v * gain))
     }
     fn radiance(&self) -> [f32; 3] {
         match &self.lane_weights {

@@ -158,6 +158,20 @@ impl Writer<'_> {
 
     fn options(&mut self, film: Film, camera: usize) {
         let Film { width, height, samples, sampler, seed, crop } = film;
+        let options = self.desc.options;
+        for (name, is_set) in [
+            ("disablepixeljitter", options.disable_pixel_jitter),
+            ("disablewavelengthjitter", options.disable_wavelength_jitter),
+            ("disabletexturefiltering", options.disable_texture_filtering),
+            ("forcediffuse", options.force_diffuse),
+        ] {
+            if is_set {
+                self.line(&format!("Option \"bool {name}\" true"));
+            }
+        }
+        if let Some(scale) = options.displacement_edge_scale {
+            self.line(&format!("Option \"float displacementedgescale\" {scale}"));
+        }
         if let Some((start, end)) = self.times.seconds() {
             self.line(&format!("TransformTimes {start} {end}"));
         }
@@ -179,6 +193,8 @@ impl Writer<'_> {
             told("diagonal", film.diagonal_mm),
             told("iso", film.iso),
             told("exposuretime", film.exposure_seconds),
+            told("whitebalance", film.white_balance),
+            told("maxcomponentvalue", film.max_component_value),
             crop.map(|[x0, x1, y0, y1]| format!(" \"integer pixelbounds\" [ {x0} {x1} {y0} {y1} ]"))
                 .unwrap_or_default(),
         ]

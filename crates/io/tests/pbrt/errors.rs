@@ -284,15 +284,15 @@ fn parts_of_the_picture_that_hold_no_pixel_are_refused() {
 #[test]
 fn what_is_not_supported_warns_once() {
     says(
-        "Film \"gbuffer\" \"float iso\" 200 \"float diagonal\" 20\nAccelerator \"kdtree\"\nOption \"bool forcediffuse\" true\n\
+        "Film \"gbuffer\" \"float iso\" 200 \"float diagonal\" 20\nAccelerator \"kdtree\"\nOption \"bool pixelstats\" true\nOption \"bool pixelstats\" true\n\
          ColorSpace \"rec2020\"\n\
          MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nWorldBegin\nMediumInterface \"\" \"\"\nMediumInterface \"fog\"\n\
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"sphere\"\nAreaLightSource \"diffuse\"\nWorldEnd",
         &[
-            "1:6 warning: the film's \"gbuffer\" is not supported yet; it is ignored | \"gbuffer\"",
+            "1:6 warning: film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own | \"gbuffer\" | --integrator cast --show normal, depth, albedo, uv or id, to .exr",
             "2:13 note: durer chooses its acceleration structure itself | \"kdtree\"",
-            "3:8 warning: the option \"forcediffuse\" is not supported yet; it is ignored | \"bool forcediffuse\" true",
-            "12:1 warning: pbrt-v4 has no WorldEnd: it is ignored | WorldEnd",
+            "3:8 warning: \"pixelstats\" writes no files | \"bool pixelstats\" true | \"durer view\" shows the rays and the noise of each pixel, the integrator \"cast\" with \"cost\" what its first hit takes",
+            "13:1 warning: pbrt-v4 has no WorldEnd: it is ignored | WorldEnd",
         ],
     );
 }

@@ -134,6 +134,12 @@ impl Bsdf {
         let none = Self { is_led: self.is_led || other.is_led, ..Self::default() };
         Some(own.chain(other.lobes().map(|lobe| lobe.scaled(t))).fold(none, Self::with))
     }
+    /// Those of the lobes that are wanted.
+    #[must_use]
+    pub fn only(&self, wanted: impl Fn(&Lobe) -> bool) -> Self {
+        let none = Self { lobes: [None; Self::MOST_LOBES], count: 0, ..*self };
+        self.lobes().filter(|lobe| wanted(lobe)).fold(none, |bsdf, lobe| bsdf.with(*lobe))
+    }
     /// The lobes, in the order they were added.
     pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
         self.lobes[..self.count].iter().flatten()

@@ -5,7 +5,7 @@
 use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, FloatInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{MATERIALS, Material};
+use super::{MATERIALS, Material, number::number};
 use crate::{
     Medium, ShadeCx, Surface,
     bsdf::{Bsdf, Lobe},
@@ -91,7 +91,7 @@ impl Mix {
         if let Some(both) = main.mixed(&other, of_other) {
             return both;
         }
-        if number(wo, &as_it_was) >= of_other {
+        if number(wo, &as_it_was, 0) >= of_other {
             return main;
         }
         *surface = tilted;
@@ -100,16 +100,6 @@ impl Mix {
     fn any(&self, of: impl Fn(&dyn Material) -> bool) -> bool {
         self.materials.iter().any(|material| of(&**material))
     }
-}
-
-/// A number in `[0, 1)` that follows from a direction and a place.
-fn number(wo: Vector3, surface: &Surface) -> f32 {
-    let p = surface.p;
-    let mixed = [wo.x, wo.y, wo.z, p.x, p.y, p.z].iter().fold(0x9e37_79b9u32, |hash, v| {
-        let hash = (hash ^ v.to_bits()).wrapping_mul(0x85eb_ca6b);
-        (hash ^ (hash >> 15)).wrapping_mul(0xc2b2_ae35)
-    });
-    ((mixed ^ (mixed >> 16)) >> 8) as f32 * (1.0 / (1 << 24) as f32)
 }
 
 impl Material for Mix {

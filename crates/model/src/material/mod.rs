@@ -11,12 +11,14 @@ mod dielectric;
 mod diffuse;
 mod diffusetransmission;
 mod disney;
+mod forcediffuse;
 mod hair;
 mod interface;
 mod mask;
 mod mirror;
 mod mix;
 mod normal_map;
+mod number;
 mod phong;
 mod principled;
 mod roughness;
@@ -39,6 +41,7 @@ pub use self::{
     diffuse::Diffuse,
     diffusetransmission::DiffuseTransmission,
     disney::Disney,
+    forcediffuse::ForceDiffuse,
     hair::Hair,
     interface::Interface,
     mask::Mask,

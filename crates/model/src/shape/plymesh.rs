@@ -1,7 +1,10 @@
 //! Triangles from a file of their own.
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{ALPHA, Geometry};
+use super::{
+    ALPHA, Displacement, Geometry,
+    displace::{DISPLACEMENT, DISPLACEMENT_EDGE_LENGTH, EDGE_LENGTH},
+};
 
 /// The word `plymesh`.
 #[derive(Clone, Copy, Debug)]
@@ -17,26 +20,17 @@ impl Kind for PlyMesh {
         params: &[
             ParamSpec::new("filename", ParamType::File, ParamDefault::Required, "The file."),
             ALPHA,
-            ParamSpec::new(
-                "displacement",
-                ParamType::FloatTexture,
-                ParamDefault::Unset,
-                "Not supported yet.",
-            ),
-            ParamSpec::float("edgelength", 1.0, "Of displaced triangles; not supported yet.").unit("m"),
-            ParamSpec::float("displacement.edgelength", 1.0, "The same in pbrt's words; not supported yet.")
-                .unit("m"),
+            DISPLACEMENT,
+            EDGE_LENGTH,
+            DISPLACEMENT_EDGE_LENGTH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         if !args.is_sound() {
             return None;
         }
-        for name in ["displacement", "displacement.edgelength"] {
-            if args.is_set(name) {
-                args.warning(name, format!("\"{name}\" is not supported yet and has no effect"));
-            }
-        }
+        // Textures are there once all shapes are built.
+        Displacement::read(args);
         let mesh = args.mesh("filename");
         // A file that may be missing leaves an empty mesh.
         args.is_sound().then(|| Geometry::Mesh(mesh.unwrap_or_default()))

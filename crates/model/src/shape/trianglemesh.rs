@@ -7,7 +7,10 @@ use std::sync::Arc;
 use durer_core::math::{Normal3, Point2, Point3};
 use durer_scene::{Args, Kind, Mesh, MeshError, ParamDefault, ParamSpec, ParamType, Schema, VertexKey};
 
-use super::{ALPHA, Geometry};
+use super::{
+    ALPHA, Displacement, Geometry,
+    displace::{DISPLACEMENT, DISPLACEMENT_EDGE_LENGTH, EDGE_LENGTH},
+};
 
 /// The word `trianglemesh`.
 #[derive(Clone, Copy, Debug)]
@@ -118,12 +121,16 @@ impl Kind for TriangleMesh {
             .unit("s"),
             ParamSpec::new("faceIndices", ParamType::Ints, ParamDefault::Unset, "Numbers for other programs; no effect."),
             ALPHA,
+            DISPLACEMENT,
+            EDGE_LENGTH,
+            DISPLACEMENT_EDGE_LENGTH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         if !args.is_sound() {
             return None;
         }
+        Displacement::read(args);
         let positions = points(args, "P");
         let indices = args.ints("indices");
         let (triples, rest) = indices.as_chunks::<3>();

@@ -8,7 +8,7 @@ use durer_model::camera::{FilmBack, Lens, Shutter};
 use durer_scene::{CameraDesc, Data, Diagnostics, Location, Param, Params, SceneDesc, ValueType};
 
 use super::{CompileOptions, nodes};
-use crate::{CameraPlacement, SampleCx, Scene, View, probe::NoProbe};
+use crate::{CameraPlacement, SampleCx, Scene, View, film::Sensor, probe::NoProbe};
 
 /// Of a film that leaves pictures as they are.
 const USUAL_ISO: f32 = 100.0;
@@ -130,6 +130,7 @@ pub(super) fn view(
         shutter,
         filter: filter?,
         speed,
+        sensor: Sensor::new(film.white_balance, film.max_component_value),
     })
 }
 

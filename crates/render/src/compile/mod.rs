@@ -6,6 +6,7 @@
 
 mod automatic;
 mod camera;
+mod displace;
 mod geometry;
 mod kept;
 mod lights;
@@ -30,7 +31,7 @@ use durer_model::{
 };
 use durer_scene::{Assets, CameraDesc, Diagnostics, Missing, Node, SceneDesc};
 
-use crate::{Media, MediumStack, Scene, View, integrator::NOT_YET, light_sampler::LightChooser, media};
+use crate::{Media, MediumStack, Scene, View, light_sampler::LightChooser, media};
 
 pub use camera::{Aperture, Focus, LensOptions};
 use geometry::Earlier;
@@ -248,7 +249,10 @@ impl Made {
             extent,
             report,
             objects: placed.objects,
-            filters: textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
+            filters: match desc.options.disable_texture_filtering {
+                true => Filters::Never,
+                false => textures.iter().map(|texture| texture.filters()).max().unwrap_or(Filters::Never),
+            },
             textures,
             texture_names: desc.textures.iter().map(|t| t.name.clone()).collect(),
             material_names: desc.materials.iter().map(|m| m.name.clone()).chain([String::new()]).collect(),
@@ -286,14 +290,4 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 pub fn default_integrator(desc: &SceneDesc) -> Node {
     let kind = if desc.media.is_empty() { "path" } else { "volpath" };
     Node::new(kind, durer_scene::Params::new())
-}
-
-/// What is used for an integrator of pbrt that we do not have: paths of as many bounces, which see most of the same light.
-pub fn stand_in_integrator(node: &Node, desc: &SceneDesc) -> Option<Node> {
-    let mut params = durer_scene::Params::new();
-    if let Some(depth) = node.params.get("maxdepth") {
-        params.push(depth.clone());
-    }
-    let usual = default_integrator(desc);
-    NOT_YET.contains(&node.kind.as_str()).then_some(Node { params, ..usual })
 }

@@ -4,13 +4,13 @@ use std::{collections::HashMap, sync::Arc};
 use durer_model::{
     camera::{CAMERAS, Camera},
     filter::{FILTERS, Filter},
-    material::{self, MATERIALS, Material},
+    material::{self, ForceDiffuse, MATERIALS, Material},
     shape::{Geometry, SHAPES},
     texture::{self, Texture},
 };
 use durer_scene::{
-    Args, Assets, Data, Diagnostics, Entry, Missing, NamedNode, Node, Params, SceneDesc, ShapeSource,
-    TextureDesc, TextureNames, ValueType, find,
+    Args, Assets, Data, Diagnostics, Entry, Missing, NamedNode, Node, Params, SceneDesc, ShapeDesc,
+    ShapeSource, TextureDesc, TextureNames, ValueType, find,
 };
 
 use rayon::prelude::*;
@@ -126,6 +126,9 @@ impl Builder<'_> {
             self.diagnostics.append(said);
             materials.extend(built);
         }
+        if self.desc.options.force_diffuse {
+            return materials.into_iter().map(|own| Box::new(ForceDiffuse(own)) as _).collect();
+        }
         materials
     }
 
@@ -134,20 +137,21 @@ impl Builder<'_> {
         let shapes = &self.desc.shapes;
         // A node that several shapes share is built once.
         let mut numbers: HashMap<*const Node, usize> = HashMap::new();
-        let mut distinct: Vec<&Node> = Vec::new();
+        let mut distinct: Vec<(&Node, &ShapeDesc)> = Vec::new();
         let mut number_of = Vec::with_capacity(shapes.len());
         for shape in shapes {
             number_of.push(match &shape.source {
                 ShapeSource::Node(node) => Some(*numbers.entry(Arc::as_ptr(node)).or_insert_with(|| {
-                    distinct.push(node);
+                    distinct.push((node, shape));
                     distinct.len() - 1
                 })),
                 ShapeSource::Mesh(_) => None,
             });
         }
         let textures = &self.desc.textures;
-        let built =
-            self.build_all(&distinct, |this, _, node| this.apart(SHAPES, "shape", node, (textures, &[])));
+        let built = self
+            .build_all(&distinct, |this, _, (node, _)| this.apart(SHAPES, "shape", node, (textures, &[])));
+        let built = self.displaced(&distinct, built);
         number_of.into_iter().map(|number: Option<usize>| built[number?].clone()).collect()
     }
 

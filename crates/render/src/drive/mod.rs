@@ -17,7 +17,7 @@ pub use adaptive::{Adaptive, Antialias, MAX_SPLITS, SmallObjects, Splits};
 pub use grow::{Growing, Sparse};
 pub use part::{PartCount, scattered};
 pub use record::KilledMap;
-pub use settings::{Nesting, Settings};
+pub use settings::{Jitter, Nesting, Settings};
 pub use shared::Passes;
 pub use survey::Taken;
 
@@ -26,10 +26,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use durer_core::{
-    sampling::{Dim, Sampler},
-    spectrum::Carried,
-};
+use durer_core::{sampling::Sampler, spectrum::Carried};
 
 use crate::{
     Contribution, ImbalanceTotals, SampleCx, Scene, Value,
@@ -140,7 +137,7 @@ impl<'a> Job<'a> {
     /// The context of a sample of which this is the first sampler.
     #[inline]
     fn cx(&self, sampler: &Sampler) -> SampleCx<'a> {
-        let own = || self.settings.carried.basis(|| sampler.d1(Dim::Lambda));
+        let own = || self.settings.carried.basis(|| self.settings.lambda(sampler));
         SampleCx { scene: self.scene, basis: self.passes.basis().unwrap_or_else(own) }
     }
 
@@ -291,8 +288,9 @@ impl<'a> Job<'a> {
         }
         if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
             for splat in &out.splats {
-                let rgb = cx.basis.to_rgb(splat.radiance).map(|v| v * self.scene.view.speed);
-                let places = std::iter::once(splat.film).chain(self.scene.view.repeats(splat.film));
+                let view = &self.scene.view;
+                let rgb = view.sensor.held(cx.basis.to_rgb(splat.radiance).map(|v| v * view.speed));
+                let places = std::iter::once(splat.film).chain(view.repeats(splat.film));
                 done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
             }
         } else {
@@ -327,7 +325,9 @@ impl<'a> Job<'a> {
 /// where nothing was hit.
 fn film_value(cx: &SampleCx<'_>, out: &Contribution, gain: f32) -> Option<[f32; 3]> {
     match out.value {
-        Value::Radiance(radiance) => Some(cx.basis.to_rgb(radiance).map(|v| v * gain)),
+        Value::Radiance(radiance) => {
+            Some(cx.scene.view.sensor.held(cx.basis.to_rgb(radiance).map(|v| v * gain)))
+        }
         Value::Data(data) => data,
     }
 }

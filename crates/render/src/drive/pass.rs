@@ -5,7 +5,7 @@ use durer_core::{
 };
 use durer_model::camera::Lens;
 
-use super::Nesting;
+use super::{Jitter, Nesting};
 use crate::{PathRay, View, film::BLOCK};
 
 /// The passes of a render: a first look after one sample, then four times as many each, then block by block. No pass
@@ -57,7 +57,10 @@ pub(super) fn place(view: &View, nesting: Nesting, pixel: [u32; 2], sampler: &Sa
 
 /// The numbers that spread samples over a pixel.
 pub(super) fn in_pixel(nesting: Nesting, sampler: &Sampler) -> Point2 {
-    sampler.shared_by(nesting.per_place()).d2(Dim::Pixel)
+    match nesting.place {
+        Jitter::Drawn => sampler.shared_by(nesting.per_place()).d2(Dim::Pixel),
+        Jitter::Middle => Point2::new(0.5, 0.5),
+    }
 }
 
 /// The number that chooses the moment; `None` if there is no choice.
@@ -119,6 +122,7 @@ mod tests {
             height: 10,
             filter: Filter::pixel(),
             speed: 1.0,
+            sensor: Default::default(),
         }
     }
 
@@ -151,7 +155,7 @@ mod tests {
     #[test]
     fn nested_samples_go_through_every_place_at_every_moment() {
         // 16 places, 4 moments each, 2 points on the lens each.
-        let all = decisions(128, Nesting { time: 4, lens: 2 });
+        let all = decisions(128, Nesting { time: 4, lens: 2, ..Nesting::default() });
         for group in all.chunks(8) {
             let (place, _, _) = group[0];
             assert!(group.iter().all(|d| (d.0[0] - place[0]).hypot(d.0[1] - place[1]) < 1e-5));
@@ -171,10 +175,10 @@ mod tests {
 
     #[test]
     fn effects_that_are_left_out_stay_in_their_middle() {
-        let frozen = decisions(16, Nesting { time: 0, lens: 0 });
+        let frozen = decisions(16, Nesting { time: 0, lens: 0, ..Nesting::default() });
         assert!(frozen.iter().all(|d| d.1 == 0.5 && d.2 == [0.0; 2]));
         assert_eq!(cells(frozen.iter().map(|d| d.0), 4), vec![1; 16]);
-        let one_place = decisions(16, Nesting { time: 16, lens: 0 });
+        let one_place = decisions(16, Nesting { time: 16, lens: 0, ..Nesting::default() });
         assert!(one_place.iter().all(|d| (d.0[0] - 0.5).abs() < 1e-5 && (d.0[1] - 0.5).abs() < 1e-5));
     }
 

@@ -5,8 +5,8 @@ use durer_core::{math::Point2, sampling::Dim};
 
 use super::{Job, adaptive, crew, film_value, lock, pass, pass::Eye};
 use crate::{
-    Contribution, SampleCx,
-    film::Tile,
+    Contribution, SampleCx, Value,
+    film::{Developing, Tile},
     integrator::Particles,
     probe::{Detail, RandomNumbers, RayKind, RayTree, Recorder, TreeEye},
 };
@@ -88,7 +88,7 @@ impl Job<'_> {
             eye.random.extend(moment.map(|u| RandomNumbers::one(Dim::Time, u)));
             eye.random.extend(lens.map(|u| RandomNumbers::two(Dim::Lens, u.to_array())));
             if cx.basis.wavelengths().is_some() {
-                eye.random.push(RandomNumbers::one(Dim::Lambda, common.d1(Dim::Lambda)));
+                eye.random.push(RandomNumbers::one(Dim::Lambda, self.settings.lambda(common)));
             }
         }
         tree.eye = Some(TreeEye {
@@ -97,6 +97,12 @@ impl Job<'_> {
             time: ray.ray.time,
             filter_weight: weight,
             gain: *gain,
+            developing: match out.value {
+                Value::Radiance(radiance) => {
+                    view.sensor.developing(cx.basis.to_rgb(radiance).map(|v| v * gain))
+                }
+                Value::Data(_) => Developing::NONE,
+            },
         });
         (tree, value)
     }

@@ -1,5 +1,8 @@
 //! How a picture is taken.
-use durer_core::{sampling::SamplerKind, spectrum::Carried};
+use durer_core::{
+    sampling::{Dim, Sampler, SamplerKind},
+    spectrum::Carried,
+};
 
 use super::Antialias;
 use crate::film::Tile;
@@ -23,6 +26,18 @@ pub struct Settings {
     pub antialias: Antialias,
     /// Whether rays carry colours or wavelengths.
     pub carried: Carried,
+    /// Whether every sample draws wavelengths of its own.
+    pub wavelengths: Jitter,
+}
+
+/// Whether samples draw something, or have what lies in the middle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Jitter {
+    /// They draw it.
+    #[default]
+    Drawn,
+    /// They all have the same.
+    Middle,
 }
 
 /// How many samples share a place and a moment. Of the `A T L` samples of a pixel `T L` in sequence go through each of its
@@ -30,6 +45,8 @@ pub struct Settings {
 /// effect that is left out: everything at half exposure, everything in focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Nesting {
+    /// Whether places are spread over the pixel at all.
+    pub place: Jitter,
     /// Moments for each place in the pixel.
     pub time: u32,
     /// Points on the lens for each moment.
@@ -39,11 +56,14 @@ pub struct Nesting {
 impl Default for Nesting {
     /// Every sample has a place, a moment and a point on the lens of its own.
     fn default() -> Self {
-        Self { time: 1, lens: 1 }
+        Self { place: Jitter::Drawn, time: 1, lens: 1 }
     }
 }
 
 impl Nesting {
+    /// All samples are the same but for what becomes of their rays.
+    pub const STILL: Self = Self { place: Jitter::Middle, time: 0, lens: 0 };
+
     /// The samples of each place in the pixel.
     pub fn per_place(self) -> u32 {
         self.time.max(1).saturating_mul(self.lens.max(1))
@@ -61,11 +81,19 @@ impl Default for Settings {
             crop: None,
             antialias: Antialias::Supersample,
             carried: Carried::Rgb,
+            wavelengths: Jitter::Drawn,
         }
     }
 }
 
 impl Settings {
+    /// The number that chooses wavelengths.
+    pub(super) fn lambda(&self, sampler: &Sampler) -> f32 {
+        match self.wavelengths {
+            Jitter::Drawn => sampler.d1(Dim::Lambda),
+            Jitter::Middle => 0.5,
+        }
+    }
     /// The rendered part of a picture of this size.
     pub fn window(&self, width: u32, height: u32) -> Tile {
         let all = Tile { x0: 0, y0: 0, x1: width, y1: height };

@@ -5,10 +5,7 @@
 //! the passes kept that were made last, as many as fit.
 use std::sync::{Arc, Mutex, PoisonError, atomic::AtomicBool};
 
-use durer_core::{
-    sampling::{Dim, Sampler},
-    spectrum::Basis,
-};
+use durer_core::{sampling::Sampler, spectrum::Basis};
 
 use super::{Job, crew};
 use crate::{
@@ -68,7 +65,7 @@ impl Job<'_> {
         let gathering = self.integrator.facts().gathering?;
         let s = &self.settings;
         let sampler = Sampler::new(s.sampler, s.seed, [index, ROW_OF_PASSES], index, s.samples);
-        let basis = s.carried.basis(|| sampler.d1(Dim::Lambda));
+        let basis = s.carried.basis(|| s.lambda(&sampler));
         let cx = SampleCx { scene: self.scene, basis };
         let (photons, rays) = self.photons(&cx, &gathering, (index, &sampler), cancel);
         let bytes = photons.len() as u64 * Photons::BYTES;

@@ -5,11 +5,13 @@
 //! that tree, so that any order of merging along the tree is the same arithmetic. Splats have a plane of their own.
 
 mod develop;
+mod sensor;
 mod splats;
 mod tile;
 mod tonemap;
 
 pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data, develop_survey};
+pub use sensor::{Developing, Sensor};
 pub use splats::Splat;
 pub use tile::Tile;
 pub use tonemap::ToneMap;

@@ -7,6 +7,7 @@ mod ambient_occlusion;
 mod bdpt;
 mod cast;
 mod distributed;
+mod function;
 mod light_tracing;
 mod path;
 mod photons;
@@ -30,6 +31,7 @@ pub use ambient_occlusion::AmbientOcclusion;
 pub use bdpt::Bidirectional;
 pub use cast::{Cast, Show};
 pub use distributed::{Distributed, Sampling};
+pub use function::Function;
 pub use light_tracing::LightTracing;
 pub use path::{Direct, Path, Sppm, VolPath};
 pub use photons::{Gathering, Photon, Photons, Sent, send};
@@ -86,6 +88,8 @@ pub struct Facts {
     pub particles: Particles,
     /// [`Transport::walks`].
     pub walks: bool,
+    /// [`Transport::looks`].
+    pub looks: bool,
     /// [`Transport::gathering`].
     pub gathering: Option<Gathering>,
 }
@@ -121,6 +125,10 @@ pub trait Transport: Send + Sync {
     /// What particles are to it.
     fn particles(&self) -> Particles {
         Particles::None
+    }
+    /// Whether it looks at the scene at all.
+    fn looks(&self) -> bool {
+        true
     }
     /// Whether it follows light below surfaces. If not it sees matte bodies there.
     fn walks(&self) -> bool {
@@ -175,6 +183,7 @@ impl<T: Transport> Integrator for T {
             bounded: self.bounded(),
             particles: self.particles(),
             walks: self.walks(),
+            looks: self.looks(),
             gathering: self.gathering(),
         }
     }
@@ -216,6 +225,7 @@ pub const INTEGRATORS: &[Entry<Box<dyn Integrator>>] = &[
     Entry::of::<Sppm>(),
     Entry::of::<AmbientOcclusion>(),
     Entry::of::<Cast>(),
+    Entry::of::<Function>(),
 ];
 
 /// Those that follow one direction per hit: scene languages agree with us on what their depth means.
@@ -249,6 +259,3 @@ const ROULETTE_DEPTH: ParamSpec = ParamSpec::new(
     "Bounces after which chance may end a path.",
 )
 .range(0.0, 10_000.0);
-
-/// pbrt-v4's integrators that we do not have yet; [`Path`] stands in for them, with a warning.
-pub const NOT_YET: &[&str] = &["function"];

@@ -2,6 +2,7 @@
 use durer_core::spectrum::{Basis, Spectrum};
 
 use super::TreeNode;
+use crate::film::Developing;
 
 /// Number of a node in its [`RayTree`]; none for the eye ray's parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +22,8 @@ pub struct TreeEye {
     pub filter_weight: f32,
     /// What the camera makes of the radiance that arrives: 1 unless a lens of glass or the film's speed count.
     pub gain: f32,
+    /// What the film makes of that.
+    pub developing: Developing,
 }
 
 /// What is recorded beside what is always.

@@ -54,7 +54,7 @@ pub(super) fn tell(
             prepared,
             tree: &detailed.tree,
             children: detailed.tree.children(),
-            whole: luminance(detailed.rgb),
+            whole: luminance(detailed.arriving()),
         };
         paragraphs.extend(teller.way());
         paragraphs.extend(rest::sources(explanation));

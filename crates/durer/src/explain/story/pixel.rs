@@ -54,8 +54,32 @@ pub(super) fn summary(
     }
     if matches!(prepared.integrator.facts().output, crate::Output::Radiance) && detailed.is_finite() {
         sentences.push(parts(explanation));
+        sentences.extend(on_film(detailed));
     }
     Paragraph { about: "pixel", node: None, is_detail: false, sentences }
+}
+
+/// What camera and film make of what arrives, step by step; nothing where they leave it.
+fn on_film(sample: &Sample) -> Option<String> {
+    let eye = sample.tree.eye.as_ref()?;
+    let (gain, film) = (eye.gain, eye.developing);
+    let steps: Vec<String> = [
+        (gain != 1.0).then(|| format!("times {} by lens and speed of the film", number(gain.into()))),
+        (film.clamp != 1.0).then(|| format!("times {} as the film takes no more", number(film.clamp.into()))),
+        film.balance.map(|_| "balanced for the white of the film".to_owned()),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    (!steps.is_empty()).then(|| {
+        format!(
+            "Along the eye ray of sample {} arrives {}; {} that is {}.",
+            sample.number,
+            color(sample.arriving()),
+            list(&steps),
+            color(sample.rgb)
+        )
+    })
 }
 
 fn lower(of: &str) -> String {

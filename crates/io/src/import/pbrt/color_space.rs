@@ -1,9 +1,12 @@
 //! `ColorSpace`: colours of other primaries, brought to those of Rec. 709, which are ours.
 //!
-//! Light keeps its chromaticity. Reflectances keep white: they are adapted to D65 by Bradford's cone responses (Lam 1985), as
+//! Light keeps its chromaticity. Reflectances keep white: they are adapted to D65, as
 //! a white wall is white under the light that the file calls white. Primaries: ITU-R BT.709 and BT.2020, SMPTE RP 431-2 with D65
 //! (as Display P3), SMPTE ST 2065-1.
-use durer_core::glam::{DMat3, DVec3};
+use durer_core::{
+    glam::{DMat3, DVec3},
+    spectrum::{D65, adaptation, tristimulus},
+};
 use durer_scene::{Data, Param, ValueType};
 
 /// A space of colours.
@@ -16,8 +19,6 @@ pub(super) struct ColorSpace {
     blue: [f64; 2],
     white: [f64; 2],
 }
-
-const D65: [f64; 2] = [0.3127, 0.329];
 
 /// Those of pbrt-v4; ours comes first.
 pub(super) const COLOR_SPACES: [ColorSpace; 4] = [
@@ -51,16 +52,6 @@ pub(super) enum Of {
 /// Parameters that say how much light is sent out.
 const LIGHT: [&str; 3] = ["L", "I", "Le"];
 
-/// X, Y, Z at Y = 1.
-fn tristimulus([x, y]: [f64; 2]) -> DVec3 {
-    DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
-}
-
-/// Of sharpened cones.
-fn cones() -> DMat3 {
-    DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296])
-}
-
 impl ColorSpace {
     pub(super) const SRGB: Self = OURS;
 
@@ -79,8 +70,7 @@ impl ColorSpace {
     /// To linear Rec. 709.
     fn to_ours(self, of: Of) -> DMat3 {
         let adapted = if of == Of::Surface && self.white != OURS.white {
-            let [from, to] = [self.white, OURS.white].map(|white| cones() * tristimulus(white));
-            cones().inverse() * DMat3::from_diagonal(to / from) * cones()
+            adaptation([self.white, OURS.white])
         } else {
             DMat3::IDENTITY
         };

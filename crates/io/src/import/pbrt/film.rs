@@ -1,6 +1,6 @@
 //! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
 use durer_scene::{
-    Args, Crop, Diagnostics, FilmDesc, Location, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
+    Args, Crop, Diagnostics, FilmDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
     Schema, counted,
 };
 
@@ -36,14 +36,31 @@ pub(super) const FILM: Schema = Schema {
         )
         .unit("px")
         .range(0.0, 1e6),
-        ParamSpec::new("sensor", ParamType::Text, ParamDefault::Text("cie1931"), "only the default"),
+        ParamSpec::new(
+            "sensor",
+            ParamType::Choice(&SENSORS),
+            ParamDefault::Text("cie1931"),
+            "only the default",
+        ),
         ParamSpec::float("iso", 100.0, "multiplies the picture, 100 is 1").above(0.0, f32::INFINITY),
         ParamSpec::float("exposuretime", 1.0, "multiplies the picture, 1 is 1")
             .unit("s")
             .above(0.0, f32::INFINITY),
-        ParamSpec::float("whitebalance", 0.0, "only the default").unit("K"),
-        ParamSpec::float("scale", 1.0, "only the default"),
-        ParamSpec::new("maxcomponentvalue", ParamType::Float, ParamDefault::Unset, "not supported yet"),
+        ParamSpec::float(
+            "whitebalance",
+            0.0,
+            "temperature of the daylight that is shown as white; 0 leaves colours",
+        )
+        .unit("K")
+        .range(0.0, 40_000.0),
+        ParamSpec::float("scale", 1.0, "multiplies the picture").above(0.0, f32::INFINITY),
+        ParamSpec::new(
+            "maxcomponentvalue",
+            ParamType::Float,
+            ParamDefault::Unset,
+            "the most that X, Y or Z of a sample may be",
+        )
+        .above(0.0, f32::INFINITY),
         ParamSpec::new(
             "coordinatesystem",
             ParamType::Text,
@@ -55,6 +72,32 @@ pub(super) const FILM: Schema = Schema {
         ParamSpec::float("lambdamax", 830.0, "spectral: no effect").unit("nm"),
     ],
 };
+
+/// What pbrt-v4 has measured curves of, after the observer that stands for all of them here.
+const SENSORS: [&str; 18] = [
+    "cie1931",
+    "canon_eos_100d",
+    "canon_eos_1dx_mkii",
+    "canon_eos_200d",
+    "canon_eos_200d_mkii",
+    "canon_eos_5d",
+    "canon_eos_5d_mkii",
+    "canon_eos_5d_mkiii",
+    "canon_eos_5d_mkiv",
+    "canon_eos_5ds",
+    "canon_eos_m",
+    "hasselblad_l1d_20c",
+    "nikon_d810",
+    "nikon_d850",
+    "sony_ilce_6400",
+    "sony_ilce_7m3",
+    "sony_ilce_7rm3",
+    "sony_ilce_9",
+];
+/// What only pictures of more layers have.
+const LAYERS: [&str; 4] = ["coordinatesystem", "nbuckets", "lambdamin", "lambdamax"];
+/// The coldest glow that can be balanced.
+const COLDEST: f32 = 1000.0;
 
 /// Samplers of pbrt-v4 that take `pixelsamples`.
 const SAMPLERS: [&str; 6] = ["halton", "independent", "paddedsobol", "sobol", "zsobol", "pmj02bn"];
@@ -98,12 +141,8 @@ pub(super) const STRATIFIED: Schema = Schema {
     ],
 };
 
-/// Reads `Film`. Returns what it asks for in vain: parameter (or kind) and where.
-pub(super) fn film(
-    node: &Node,
-    film: &mut FilmDesc,
-    diagnostics: &mut Diagnostics,
-) -> Vec<(&'static str, Location)> {
+/// Reads `Film`.
+pub(super) fn film(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagnostics) {
     let known = FILM.name == node.kind || FILM.aliases.contains(&node.kind.as_str());
     if node.kind == "image" {
         let hint = "this is pbrt-v3's word; pbrt-v4 writes \"rgb\"";
@@ -128,23 +167,46 @@ pub(super) fn film(
     for (name, into) in numbers {
         *into = args.is_set(name).then(|| args.float(name));
     }
+    let scale = args.float("scale");
+    if scale != 1.0 {
+        film.exposure_seconds = Some(film.exposure_seconds.unwrap_or(1.0) * scale);
+    }
+    film.max_component_value = args.optional_float("maxcomponentvalue");
+    film.white_balance = white_balance(&mut args);
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
     film.crop = crop(&mut args);
-    let unusual = [
-        ("sensor", args.text("sensor") != "cie1931"),
-        ("whitebalance", args.float("whitebalance") != 0.0),
-        ("scale", args.float("scale") != 1.0),
-        ("maxcomponentvalue", args.optional_float("maxcomponentvalue").is_some()),
-    ];
-    let mut vain = Vec::new();
+    for name in LAYERS {
+        if args.is_set(name) {
+            args.warning(name, format!("\"{name}\" has no effect: the picture has red, green and blue"));
+        }
+    }
     if node.kind == "gbuffer" {
-        vain.push(("gbuffer", node.at.clone()));
+        let message = "film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own";
+        let hint = "--integrator cast --show normal, depth, albedo, uv or id, to .exr";
+        diagnostics.warning(node.at.clone(), message).hint(hint);
     }
-    if args.is_sound() {
-        let at = |name: &str| node.params.get(name).map_or(Location::None, |p| p.at.clone());
-        vain.extend(unusual.iter().filter(|u| u.1).map(|(name, _)| (*name, at(name))));
+}
+
+/// The daylight that is shown as white, in kelvin; `None` where colours are left as they are.
+fn white_balance(args: &mut Args<'_>) -> Option<f32> {
+    let kelvin = args.float("whitebalance");
+    if kelvin > 0.0 && kelvin < COLDEST {
+        args.error(
+            "whitebalance",
+            format!("\"whitebalance\" is {kelvin}, expected 0 or {COLDEST} K and more"),
+        );
     }
-    vain
+    let sensor = args.text("sensor");
+    if args.is_sound() && sensor != SENSORS[0] {
+        args.warning(
+            "sensor",
+            format!(
+                "the measured curves of the sensor \"{sensor}\" are not part of durer: colours are those of \"cie1931\", which \
+                 pbrt-v4 fits them to, with the same speed and white balance"
+            ),
+        );
+    }
+    (kelvin > 0.0).then_some(kelvin)
 }
 
 /// The part of the picture that `cropwindow` or `pixelbounds` asks for; `None` for all of it.

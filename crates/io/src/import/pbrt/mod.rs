@@ -1,8 +1,8 @@
 //! The pbrt-v4 scene language (pbrt.org/fileformat-v4), with additions of ours: docs/pbrt-language.md.
 //!
 //! Text flows one way: [`files`] reads it, [`lexer`] cuts it into tokens, [`input`] and [`params`] read arguments
-//! ([`bulk`] long ones), [`parser`] obeys directives ([`placing`], [`settings`], [`block`], [`nodes`]), [`world`] collects what
-//! they leave. Kinds and their parameters are checked later, against the registry of the model; only `Film` and `Sampler`
+//! ([`bulk`] long ones), [`parser`] obeys directives ([`placing`], [`settings`], [`mod@option`], [`block`], [`nodes`]), [`world`]
+//! collects what they leave. Kinds and their parameters are checked later, against the registry of the model; only `Film` and `Sampler`
 //! are checked here.
 
 mod block;
@@ -19,6 +19,7 @@ mod lexer;
 mod media;
 mod nodes;
 mod number;
+mod option;
 mod params;
 mod parser;
 mod placement;

@@ -1,5 +1,5 @@
 //! The directives before `WorldBegin`: camera, picture and transport.
-use durer_scene::{CameraDesc, Data, Node};
+use durer_scene::{CameraDesc, Node};
 
 use super::{
     color_space::{COLOR_SPACES, ColorSpace},
@@ -13,22 +13,6 @@ use super::{
 
 /// Keeps the search for names cheap.
 const MOST_CAMERAS: usize = 1024;
-
-/// What `Option` sets in pbrt-v4.
-const OPTIONS: [&str; 12] = [
-    "disablepixeljitter",
-    "disabletexturefiltering",
-    "disablewavelengthjitter",
-    "displacementedgescale",
-    "forcediffuse",
-    "msereferenceimage",
-    "msereferenceout",
-    "pixelstats",
-    "rendercoordsys",
-    "seed",
-    "wavefront",
-    "quickrender",
-];
 
 impl Parser<'_> {
     /// `Camera`
@@ -69,9 +53,7 @@ impl Parser<'_> {
     pub(super) fn film(&mut self, head: Token) -> Result<(), Reported> {
         let node = self.node(head, "a kind of film")?;
         self.only("Film", self.world.desc.film.width.is_some(), head);
-        for (what, at) in film::film(&node, &mut self.world.desc.film, self.input.diagnostics) {
-            self.warn_once(what, at, format!("the film's \"{what}\" is not supported yet; it is ignored"));
-        }
+        film::film(&node, &mut self.world.desc.film, self.input.diagnostics);
         Ok(())
     }
 
@@ -105,34 +87,6 @@ impl Parser<'_> {
         let (kind, _) = self.kind_and_params(head, "a kind of accelerator")?;
         if self.first_time("Accelerator") {
             self.input.diagnostics.note(kind.at, "durer chooses its acceleration structure itself");
-        }
-        Ok(())
-    }
-
-    /// `Option`: the seed counts, for the rest there are options of the command line.
-    pub(super) fn option(&mut self, head: Token) -> Result<(), Reported> {
-        let params = self.input.params()?;
-        let Some(param) = params.first() else {
-            let at = self.input.lexer.span(head);
-            self.input.error(at, "Option needs one parameter such as \"integer seed\" 1");
-            return Err(Reported);
-        };
-        match OPTIONS.iter().find(|o| **o == param.name) {
-            None => self.input.diagnostics.unknown(param.at.clone(), "option", &param.name, OPTIONS),
-            Some(&"seed") => match &param.data {
-                Data::Ints(seed) if seed.len() == 1 => {
-                    self.world.desc.film.seed = seed.first().map(|&seed| u64::from(seed as u32));
-                }
-                _ => {
-                    let message = "the option \"seed\" takes one \"integer\"";
-                    self.input.diagnostics.error(param.at.clone(), message);
-                }
-            },
-            Some(option) if self.first_time(option) => {
-                let message = format!("the option \"{option}\" is not supported yet; it is ignored");
-                self.input.diagnostics.warning(param.at.clone(), message);
-            }
-            Some(_) => {}
         }
         Ok(())
     }

@@ -7,11 +7,14 @@ use durer_core::{
     glam::DVec3,
     math::{Normal3, Point2, Point3},
 };
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, Kind, Mesh, ParamDefault, ParamSpec, ParamType, Schema};
 
 pub use patch::Patch;
 
-use super::{ALPHA, Geometry, Shape};
+use super::{
+    ALPHA, Displacement, Geometry, Shape,
+    displace::{DISPLACEMENT, DISPLACEMENT_EDGE_LENGTH, EDGE_LENGTH},
+};
 
 /// The word `bilinearmesh`.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +52,9 @@ impl Kind for BilinearMesh {
                 "Where pbrt looks for light first, for less noise: no effect.",
             ),
             ALPHA,
+            DISPLACEMENT,
+            EDGE_LENGTH,
+            DISPLACEMENT_EDGE_LENGTH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
@@ -77,12 +83,34 @@ impl Kind for BilinearMesh {
         if args.is_sound() && !quads.is_empty() && quads.iter().all(flat) {
             args.warning("P", "no patch has an area: nothing of this shape will be seen");
         }
+        if Displacement::read(args).is_some() && args.is_sound() {
+            return Some(Geometry::Mesh(Arc::new(triangles(&points, &normals, &uvs, &quads))));
+        }
         let of = |q: [usize; 4]| {
             let patch = Patch::new(q.map(|i| points[i]));
             let patch = if normals.is_empty() { patch } else { patch.with_normals(q.map(|i| normals[i])) };
             Arc::new(if uvs.is_empty() { patch } else { patch.with_uvs(q.map(|i| uvs[i])) }) as Arc<dyn Shape>
         };
         args.is_sound().then(|| Geometry::Shapes(quads.into_iter().map(of).collect()))
+    }
+}
+
+/// Two triangles for each patch, as pbrt-v4 displaces quadrilaterals. Patches share no vertices, as each has its own
+/// texture coordinates if none are given.
+fn triangles(points: &[Point3], normals: &[Normal3], uvs: &[Point2], quads: &[[usize; 4]]) -> Mesh {
+    let corner = |i: usize| Point2::new((i % 2) as f32, (i / 2) as f32);
+    let corners = || quads.iter().flatten();
+    Mesh {
+        positions: corners().map(|&i| points[i]).collect(),
+        normals: corners().filter_map(|&i| normals.get(i).copied()).collect(),
+        uvs: match uvs.is_empty() {
+            true => (0..4 * quads.len()).map(|i| corner(i % 4)).collect(),
+            false => corners().map(|&i| uvs[i]).collect(),
+        },
+        indices: (0..quads.len() as u32)
+            .flat_map(|quad| [[0, 1, 3], [0, 3, 2]].map(|t| t.map(|i: u32| 4 * quad + i)))
+            .collect(),
+        ..Mesh::default()
     }
 }
 

@@ -21,7 +21,10 @@ use durer_core::{
 };
 use durer_scene::{Args, Kind, Mesh, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{ALPHA, Geometry};
+use super::{
+    ALPHA, Displacement, Geometry,
+    displace::{DISPLACEMENT, DISPLACEMENT_EDGE_LENGTH, EDGE_LENGTH},
+};
 use halfedges::HalfEdges;
 use masks::Masks;
 
@@ -86,12 +89,16 @@ impl Kind for LoopSubdiv {
                 "The only scheme.",
             ),
             ALPHA,
+            DISPLACEMENT,
+            EDGE_LENGTH,
+            DISPLACEMENT_EDGE_LENGTH,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Geometry> {
         if !args.is_sound() {
             return None;
         }
+        Displacement::read(args);
         let points: Vec<Point3> = args.triples("P").into_iter().map(Point3::from).collect();
         let (triples, rest) = args.ints("indices").as_chunks::<3>();
         if !rest.is_empty() {
