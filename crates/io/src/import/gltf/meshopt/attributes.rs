@@ -203,7 +203,7 @@ mod tests {
         let mut wrong = good.clone();
         *wrong.get_mut(last).unwrap() = 3;
         assert_eq!(unpack(&wrong, 300, 12).unwrap_err(), "it has a channel of no kind");
-        assert_eq!(unpack(&good, 299, 12).unwrap_err(), "something stands behind its end");
+        assert_eq!(unpack(&good, 256, 12).unwrap_err(), "something stands behind its end");
         assert_eq!(unpack(&good, u32::MAX as usize, 12).unwrap_err(), "it ends too early");
         for place in 0..good.len() {
             let mut other = good.clone();
