@@ -74,8 +74,7 @@ fn read(path: &Path) -> Picture {
     Picture { size: [picture.width, picture.height], pixels }
 }
 
-/// The share of numbers that agree, and how much brighter ours is: for those who read what is printed.
-#[derive(Debug)]
+/// The share of numbers that agree, and how much brighter ours is.
 struct Comparison {
     agreeing: f64,
     brighter: f64,
@@ -159,9 +158,10 @@ fn check(test: &str, scenes: &[&str], carried: Carried, budget: u32) {
     let mut wrong = Vec::new();
     for scene in scenes.iter().filter(|scene| scene.contains(&only)) {
         let found = compared(&folder, scene, carried, budget);
-        println!("{scene}: {found:?}");
+        let line = format!("{scene}: {:.5} agree, {:+.2} % brighter", found.agreeing, 100.0 * found.brighter);
+        println!("{line}");
         if found.agreeing < AGREEING {
-            wrong.push(format!("{scene}: {found:?}"));
+            wrong.push(line);
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");

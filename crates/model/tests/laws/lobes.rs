@@ -139,7 +139,7 @@ pub(super) fn spread() -> Vec<Lobe> {
         glossy(apart(brushed(0.6, 0.2))),
         metal(apart(normal(brushed(0.3, 0.7)))),
         frosted(1.5, apart(round(0.4))),
-        frosted(1.5, apart(normal(round(0.3)))),
+        frosted(1.5, apart(normal(round(0.5)))),
         tinted(round(0.3)),
         frosted(1.5, round(0.4)),
         frosted(1.0 / 1.33, brushed(0.25, 0.6)),
