@@ -244,10 +244,6 @@ fn damaged_packed_pictures_are_refused_or_other_pictures() {
         assert!(error.contains("damaged KTX 2 file"), "{error}");
     }
     let mut bytes = STANDARD.decode(ETC1S).expect("base64");
-    bytes[12] = 43;
-    let error = read(&bytes, "a.ktx2", Limits::default()).expect_err("not packed").to_string();
-    assert!(error.contains("not packed by Basis Universal") && error.contains("PNG"), "{error}");
-    bytes[12] = 0;
     bytes[36] = 6;
     let error = read(&bytes, "a.ktx2", Limits::default()).expect_err("a cube").to_string();
     assert!(error.contains("more than one picture"), "{error}");

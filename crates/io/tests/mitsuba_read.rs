@@ -1,61 +1,11 @@
 //! Mitsuba's XML, piece by piece: what is read of it, and what is said of what is wrong.
 #![allow(clippy::expect_used, clippy::indexing_slicing, reason = "a test that fails may panic")]
+mod mitsuba_scene;
+
 use durer_core::glam::DVec3;
-use durer_io::import::{Imported, Reading, open};
+use durer_io::import::{Imported, Reading};
 use durer_scene::{Crop, Data, Limits, Severity, ShapeSource};
-
-/// A scene of version 3 with this in it.
-fn scene(inside: &str) -> Imported {
-    text(&format!("<scene version=\"3.0.0\">\n{inside}\n</scene>"), Reading::default())
-}
-
-fn text(text: &str, reading: Reading) -> Imported {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("scene.xml");
-    std::fs::write(&path, text).expect("written");
-    std::fs::write(
-        folder.path().join("triangle.obj"),
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n",
-    )
-    .expect("written");
-    std::fs::write(
-        folder.path().join("loop.xml"),
-        "<scene version='3.0.0'><include filename='loop.xml'/></scene>",
-    )
-    .expect("written");
-    std::fs::write(folder.path().join("a.spd"), "# nm value\n400 0.25\n700 0.5\n").expect("written");
-    open(&path, reading)
-}
-
-/// Line, column, message and hint of each complaint of this kind.
-fn told(imported: &Imported, severity: Severity) -> Vec<String> {
-    let of = imported.diagnostics.iter().filter(|d| d.severity == severity);
-    of.map(|d| {
-        let place = match &d.at {
-            durer_scene::Location::Span(span) => {
-                let (line, column) = imported.sources.line_column(span.source, span.start);
-                format!("{line}:{column}: ")
-            }
-            _ => String::new(),
-        };
-        let hint = d.hint.as_ref().map(|h| format!(" ({h})")).unwrap_or_default();
-        format!("{place}{}{hint}", d.message)
-    })
-    .collect()
-}
-
-fn errors(inside: &str) -> Vec<String> {
-    told(&scene(inside), Severity::Error)
-}
-
-/// Numbers of a parameter of the last material that is no `sides`.
-fn material(imported: &Imported, name: &str) -> Vec<f32> {
-    let of = imported.desc.materials.iter().rev().find(|m| m.node.kind != "sides").expect("a material");
-    match of.node.params.get(name).map(|p| &p.data) {
-        Some(Data::Floats(v)) => v.clone(),
-        other => panic!("{name}: {other:?} of {:?}", of.node),
-    }
-}
+use mitsuba_scene::{errors, material, scene, text, told};
 
 #[test]
 fn unknown_words_are_told_with_their_place_and_the_nearest_one() {
@@ -227,17 +177,23 @@ fn meshes_without_normals_are_smooth_unless_their_faces_are_flat() {
 }
 
 #[test]
-fn plastic_reflects_what_makes_our_formula_mitsubas() {
+fn plastic_is_linear_unless_it_is_told_otherwise() {
     let of = |more: &str| {
         let color =
             "<rgb name=\"diffuse_reflectance\" value=\"0.5, 0, 1\"/><float name=\"int_ior\" value=\"1.5\"/>";
-        material(&scene(&format!("<bsdf type=\"plastic\">{color}{more}</bsdf>")), "reflectance")
+        let read = scene(&format!("<bsdf type=\"plastic\">{color}{more}</bsdf>"));
+        assert_eq!(told(&read, Severity::Warning), Vec::<String>::new());
+        assert_eq!(material(&read, "reflectance"), [0.5, 0.0, 1.0]);
+        let of = read.desc.materials.iter().find(|m| m.node.kind == "coateddiffuse").expect("plastic");
+        match of.node.params.get("nonlinear").map(|p| &p.data) {
+            Some(Data::Bools(v)) => (v.clone(), read),
+            other => panic!("{other:?}"),
+        }
     };
-    assert_eq!(of("<boolean name=\"nonlinear\" value=\"true\"/>"), [0.5, 0.0, 1.0]);
-    // r / (1 - F + r F) with F = 0.596 (index 1.5).
-    let [half, zero, one] = of("")[..] else { panic!() };
-    assert!((half - 0.5 / (1.0 - 0.596 + 0.5 * 0.596)).abs() < 2e-3, "{half}");
-    assert_eq!((zero, one), (0.0, 1.0));
+    assert_eq!(of("").0, [false]);
+    assert_eq!(of("<boolean name=\"nonlinear\" value=\"true\"/>").0, [true]);
+    let dimmed = of("<rgb name=\"specular_reflectance\" value=\"0.1, 0.2, 0.3\"/>").1;
+    assert_eq!(material(&dimmed, "reflection"), [0.1, 0.2, 0.3]);
 }
 
 /// Text of a parameter of the last material that is no `sides`.

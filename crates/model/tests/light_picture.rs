@@ -6,10 +6,11 @@ use std::{
 
 use durer_core::{
     glam::{DAffine3, DVec3},
-    math::{Normal3, Vector3},
+    math::{Normal3, Point3, Vector3},
+    sampling::{Sampler, SamplerKind},
     spectrum::Basis,
 };
-use durer_model::light::{LIGHTS, Light, Track};
+use durer_model::light::{LIGHTS, Light, LightCx, Track};
 use durer_scene::{
     Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, find,
 };
@@ -309,6 +310,59 @@ fn layouts_can_be_forced() {
     let octahedron = light(picture(64, 64, half), Params::new());
     assert!(near(escaped(&*octahedron, DVec3::new(0.0, -0.6, -0.8)), [1.0; 3], 1e-6));
     assert!(near(escaped(&*octahedron, DVec3::new(0.0, 0.6, 0.8)), [0.0; 3], 1e-6));
+}
+
+#[test]
+fn the_first_and_the_last_row_can_lie_in_the_poles() {
+    const ROWS: u32 = 5;
+    let row = |v: f64| (v * f64::from(ROWS)).floor();
+    let sky = |rows: u32| {
+        let lit = picture(8, rows, |_, v| [1.0 + row(v); 3]);
+        light(lit, Params::new().string("layout", "poletopole"))
+    };
+    let sky = sky(ROWS);
+    // Rows 0 to 4 stand at 0, 45, 90, 135 and 180 degrees, straight lines between them.
+    for (v, expected) in [(1e-4, 1.0), (0.25, 2.0), (0.375, 2.5), (0.5, 3.0), (0.9, 4.6), (0.9999, 5.0)] {
+        let got = escaped(&*sky, direction(0.3, v));
+        assert!(near(got, [expected; 3], 2e-3), "{v}: {got:?}");
+    }
+    // Columns stay in the middles of their cells.
+    let ring =
+        light(picture(8, 3, |u, _| [(u * 8.0).floor(); 3]), Params::new().string("layout", "poletopole"));
+    for column in 0..8u8 {
+        let got = escaped(&*ring, direction((f64::from(column) + 0.5) / 8.0, 0.5));
+        assert!(near(got, [f64::from(column); 3], 2e-3), "{column}: {got:?}");
+    }
+    // A picture of one row has no poles.
+    let one = light(picture(4, 1, |_, _| [2.0; 3]), Params::new().string("layout", "poletopole"));
+    assert_eq!(escaped(&*one, direction(0.1, 0.9)), [2.0; 3]);
+}
+
+#[test]
+fn directions_are_drawn_by_their_density_where_rows_lie_in_the_poles() {
+    let uneven = picture(7, 6, |u, v| [0.2 + (9.0 * u + 5.0 * v).sin().powi(2) * 4.0; 3]);
+    let sky = light(uneven, Params::new().string("layout", "poletopole"));
+    let cx = LightCx { basis: Basis::Rgb, time: 0.0 };
+    // The density is one of solid angle: its integral is 1, and what is drawn has it.
+    let (mut sum, n) = (0.0, 512u32);
+    for (i, j) in (0..2 * n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let z = 1.0 - 2.0 * (f64::from(j) + 0.5) / f64::from(n);
+        let azimuth = TAU * (f64::from(i) + 0.5) / f64::from(2 * n);
+        let r = (1.0 - z * z).sqrt();
+        sum += f64::from(sky.pdf_escaped(
+            &cx,
+            Point3::ZERO,
+            v(DVec3::new(r * azimuth.cos(), r * azimuth.sin(), z)),
+        ));
+    }
+    let integral = sum * 4.0 * PI / f64::from(2 * n * n);
+    assert!((integral - 1.0).abs() < 2e-3, "{integral}");
+    for i in 0..200 {
+        let sampler = Sampler::new(SamplerKind::Sobol, 3, [0, 0], i, 200);
+        let drawn = sky.sample(&cx, Point3::ZERO, &sampler).expect("a direction");
+        let pdf = sky.pdf_escaped(&cx, Point3::ZERO, drawn.wi);
+        assert!((drawn.pdf.expect("extent") / pdf - 1.0).abs() < 1e-3, "{drawn:?} {pdf}");
+    }
 }
 
 #[test]

@@ -1,60 +1,18 @@
 //! T0 and T3 for materials: parameters, lobes, energy of every registered kind, normal maps.
+mod material_shared;
+
 use durer_core::{
-    math::{Frame, Normal3, Point2, Point3, Vector3},
+    math::{Frame, Normal3, Vector3},
     spectrum::{Basis, Spectrum},
 };
 use durer_model::{
-    ShadeCx, Surface,
-    bsdf::{Branch, BranchKind, Bsdf, Lobe},
+    Surface,
+    bsdf::{BranchKind, Bsdf, Lobe},
     material::{MATERIALS, Material, NOT_YET},
 };
-use durer_scene::{Args, Data, Diagnostics, Entry, Node, ParamDefault, Params, ValueType, find};
+use durer_scene::{Data, Entry, ParamDefault, Params, ValueType};
 use durer_testkit::{DVec3, quadrature::cosine_hemisphere, random::Random};
-
-const CX: ShadeCx<'static> = ShadeCx { basis: Basis::Rgb, textures: &[], log: None };
-
-fn built(kind: &str, params: Params) -> (Option<Box<dyn Material>>, Diagnostics) {
-    let mut diagnostics = Diagnostics::default();
-    let node = Node::new(kind, params);
-    let entry = find(MATERIALS, "material", &node, &mut diagnostics).expect("a registered material");
-    let mut args = Args::check(&node, entry.schema, &[], &mut diagnostics);
-    let material = (entry.build)(&mut args);
-    (material, diagnostics)
-}
-
-fn material(kind: &str, params: Params) -> Box<dyn Material> {
-    let (material, diagnostics) = built(kind, params);
-    assert!(diagnostics.is_empty(), "{diagnostics:?}");
-    material.expect("sound parameters")
-}
-
-/// A horizontal place with z up, u along x and v along y.
-fn place() -> Surface {
-    Surface {
-        p: Point3::ZERO,
-        p_error: Vector3::ZERO,
-        n_g: Normal3::new(0.0, 0.0, 1.0),
-        n_s: Normal3::new(0.0, 0.0, 1.0),
-        uv: Point2::new(0.5, 0.5),
-        second_uv: Point2::new(0.5, 0.5),
-        dpdu: Vector3::new(2.0, 0.0, 0.0),
-        dpdv: Vector3::new(0.0, 0.5, 0.0),
-        vertex_color: [1.0; 4],
-        footprint: durer_model::texture::Footprint::POINT,
-    }
-}
-
-fn seen_under(cos: f32) -> Vector3 {
-    Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos)
-}
-
-fn bsdf(material: &dyn Material, wo: Vector3) -> Bsdf {
-    material.bsdf(&CX, &mut place(), wo)
-}
-
-fn branches(bsdf: &Bsdf, wo: Vector3) -> Vec<Branch> {
-    bsdf.branches(wo).iter().copied().collect()
-}
+use material_shared::{CX, branches, bsdf, built, material, place, seen_under};
 
 /// What the surface returns of a sky of radiance 1, as an integrator without sampling sees it.
 fn seen_in_a_uniform_sky(bsdf: &Bsdf, wo: Vector3) -> f32 {

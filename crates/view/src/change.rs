@@ -45,7 +45,7 @@ impl Director {
         self.undo.push(Undo::Camera(self.settings.camera, place));
     }
 
-    fn take_back(&mut self) {
+    pub(crate) fn take_back(&mut self) {
         for undo in std::mem::take(&mut self.undo).into_iter().rev() {
             match undo {
                 Undo::Node(id, node) => id.put(&mut self.settings, node),
@@ -65,6 +65,9 @@ impl Director {
     /// Does what requests made necessary. If the scene as it is wanted cannot be, it stays as it was.
     pub(crate) fn prepare(&mut self) {
         let effort = std::mem::take(&mut self.effort);
+        if effort == Effort::Again && self.is_elsewhen() {
+            return self.pose();
+        }
         let changed = std::mem::take(&mut self.changed);
         match effort {
             Effort::None => return,

@@ -301,7 +301,7 @@ impl Director {
     fn save(&self, format: SaveFormat) -> Result<File, String> {
         save::file(
             format,
-            &self.stage.name,
+            &self.stage.opener.scene,
             (&self.settings, &self.opened),
             (&self.job_prepared(), &self.take),
         )

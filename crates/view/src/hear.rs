@@ -68,7 +68,7 @@ impl Director {
             Message::Ghost { id } => {
                 self.prepare();
                 let prepared = Arc::clone(&self.prepared);
-                let (name, revision) = (self.stage.name.clone(), self.opened.revision);
+                let (name, revision) = (self.stage.opener.scene.clone(), self.opened.revision);
                 self.question(Question::Ghost { id, name, revision, seq: self.seq, prepared });
             }
         }
@@ -157,7 +157,7 @@ impl Director {
                 Some((self.twin(&node)?, words))
             }
         };
-        let (name, revision, seq) = (self.stage.name.clone(), self.opened.revision, self.seq);
+        let (name, revision, seq) = (self.stage.opener.scene.clone(), self.opened.revision, self.seq);
         Ok(Traced { trace, name, revision, seq, prepared, twin })
     }
 }

@@ -101,9 +101,9 @@ impl Live {
         listener.set_nonblocking(true)?;
         let guard = Guard::new(listener.local_addr()?).map_err(io::Error::other)?;
         let Config { scene, options, look, page, describe, .. } = config;
-        let opener = Opener { scene: scene.clone(), options, look, describe };
+        let opener = Arc::new(Opener { scene, options, look, describe });
         let opened = opener.open(imported, 1).map_err(StartError::Scene)?;
-        let stage = Arc::new(Stage::new(scene, opened));
+        let stage = Arc::new(Stage::new(Arc::clone(&opener), opened));
         let (stop, stopped) = signal::channel(false);
         let server = Server {
             guard: guard.clone(),

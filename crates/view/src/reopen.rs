@@ -10,6 +10,7 @@ use crate::{
     form::{Complaint, Effort, FormId},
     settings::Settings,
     stage::Opened,
+    take::Take,
 };
 
 impl Director {
@@ -20,6 +21,32 @@ impl Director {
             self.reopen(opened);
         }
         self.told = None;
+    }
+
+    /// Whether the scene is another at the moment that is wanted: its file is read for it.
+    pub(crate) fn is_elsewhen(&self) -> bool {
+        let studio = &self.opened.studio;
+        !studio.imported.desc.animations.is_empty() && studio.options.time != self.settings.options.time
+    }
+
+    /// Goes on with the scene as its animations have it at the moment that is wanted; other viewers keep theirs.
+    pub(crate) fn pose(&mut self) {
+        self.say_status("compiling");
+        let (time, revision) = (self.settings.options.time, self.opened.revision);
+        match self.stage.opener.posed(time, revision) {
+            Ok(mut posed) => {
+                // What a viewer changed is told from what the user asked for.
+                let mut original = (*posed.original).clone();
+                original.options.time = self.stage.opener.options.time;
+                posed.original = Arc::new(original);
+                self.reopen(Arc::new(posed));
+            }
+            Err(why) => {
+                self.take_back();
+                self.take = Take::new(&self.job(), self.pace);
+                self.complain(&Complaint::of("moment", None, why), None);
+            }
+        }
     }
 
     /// Goes on with the scene as it is now on disk: with this viewer's film, look and camera, and with his changes of

@@ -9,7 +9,9 @@ use std::{
 
 use durer::{Prepared, Studio};
 
-use crate::{guard::secret, session::Session, settings::Settings, socket::Numbers, turns::Turns};
+use crate::{
+    guard::secret, session::Session, settings::Settings, socket::Numbers, turns::Turns, watch::Opener,
+};
 
 /// Sessions at once: each keeps a film.
 const MOST_SESSIONS: usize = 16;
@@ -31,8 +33,7 @@ pub(crate) struct Opened {
 
 /// See above.
 pub(crate) struct Stage {
-    /// The scene as the user named it.
-    pub(crate) name: String,
+    pub(crate) opener: Arc<Opener>,
     pub(crate) turns: Turns,
     /// Open sockets.
     viewers: AtomicUsize,
@@ -49,9 +50,9 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Stage {
-    pub(crate) fn new(name: String, opened: Opened) -> Self {
+    pub(crate) fn new(opener: Arc<Opener>, opened: Opened) -> Self {
         Self {
-            name,
+            opener,
             turns: Turns::default(),
             viewers: AtomicUsize::new(0),
             numbers: Numbers::new(),

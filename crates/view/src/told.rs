@@ -121,9 +121,11 @@ impl Director {
             TextureValue::Color => "color",
         };
         let textures: Vec<_> = textures.map(|t| json!({ "name": t.name, "value": value(t.value) })).collect();
-        let time = Kept::times(desc).map_or([0.0; 2], |(first, last)| [first, last]);
+        let played = desc.animations.iter().map(|a| (f64::from(a.start), f64::from(a.end)));
+        let played = played.reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)));
+        let time = played.or(Kept::times(desc)).map_or([0.0; 2], |(first, last)| [first, last]);
         json!({
-            "name": self.stage.name,
+            "name": self.stage.opener.scene,
             "revision": self.opened.revision,
             "triangles": scene.report.geometry.triangles_placed,
             "objects": scene.objects.len(),

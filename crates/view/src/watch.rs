@@ -13,7 +13,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use durer::{Imported, Options, Studio, scene::Severity};
+use durer::{Imported, Options, Studio, import::Play, scene::Severity};
 
 use crate::{
     settings::{Look, Settings},
@@ -46,7 +46,28 @@ impl Opener {
     /// # Errors
     /// The scene with its complaints.
     pub(crate) fn open(&self, imported: Imported, revision: u64) -> Result<Opened, Box<Imported>> {
-        let (studio, prepared) = Studio::open(imported, &self.options)?;
+        self.compiled(imported, &self.options, revision)
+    }
+
+    /// The scene as its animations have it at another moment, read anew.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub(crate) fn posed(&self, time: f32, revision: u64) -> Result<Opened, String> {
+        let play = if self.options.play == Play::Rest { Play::First } else { self.options.play.clone() };
+        let options = Options { time, play, ..self.options.clone() };
+        let imported = durer::open_for(&self.scene, &options);
+        let posed = self.compiled(imported, &options, revision);
+        posed.map_err(|imported| (self.describe)(&imported, Severity::Error))
+    }
+
+    fn compiled(
+        &self,
+        imported: Imported,
+        options: &Options,
+        revision: u64,
+    ) -> Result<Opened, Box<Imported>> {
+        let (studio, prepared) = Studio::open(imported, options)?;
         let warnings = (self.describe)(&studio.imported, Severity::Warning);
         let warnings = if warnings.is_empty() { Vec::new() } else { vec![warnings] };
         let original = Arc::new(Settings::new(&studio, self.look));

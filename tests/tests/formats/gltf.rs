@@ -92,6 +92,16 @@ const PARTS: &[(&str, &str, &str)] = &[
         r#""data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAAEAAAAQAAAAEAAAAAAAAAAAAAAAAQAAAAEAAAACAAAAaAAAACwAAACUAAAAJAAAAAAAAAAAAAAAAAAAAAAAAAC4AAAAAAAAAI0AAAAAAAAAAAEAAAAAAAAsAAAAAAAAAAIAKACmAQIAAwMAAAAAAAAAAAAAAAB/AwAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDEuMTYAACi1L/1gAAAdBADEBQBQiUpNkblHETJUdpi63P5dkrnfEgCJam6TubcTUIlqvpO5OxIJT00ZuhhQCU9dGroYAAlvbhu6GFAJb74buslMTSG7XSK7yWxuI7vJbL4juxCxu12yELO7ELO7FSiQ4wIPEFAhuR0QlrdBQAxEIZT5Yd8Az0IzGGUG9HhzVxvwlw==""#,
     ),
     (
+        "pictures as KTX 2, not packed",
+        "/images/0/uri",
+        r#""data:image/ktx2;base64,q0tUWCAyMLsNChoKHQAAAAEAAAABAAAAAQAAAAAAAAAAAAAAAQAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABoAAAAAAAAAAMAAAAAAAAAAwAAAAAAAAAQIDA=""#,
+    ),
+    (
+        "pictures as KTX 2, packed as BC7",
+        "/images/0/uri",
+        r#""data:image/ktx2;base64,q0tUWCAyMLsNChoKkQAAAAEAAAABAAAAAQAAAAAAAAAAAAAAAQAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABoAAAAAAAAABAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA""#,
+    ),
+    (
         "pictures as WebP",
         "/images/0/uri",
         r#""data:image/webp;base64,UklGRjwAAABXRUJQVlA4TC8AAAAvAUAAEB8gEEiS2B91DSEBQfX/L4EAwYj/SwIBwroHvwJvWayCkgABUJSRiP4HAwA=""#,
@@ -158,7 +168,7 @@ fn part(pointer: &str, value: &str) -> Value {
         document["nodes"] = json!([{"mesh": 0}, {"camera": 0}]);
         document["scenes"] = json!([{"nodes": [0, 1]}]);
     }
-    if pointer == "/images/0/mimeType" || pointer.ends_with("Texture") {
+    if pointer.starts_with("/images/0/") || pointer.ends_with("Texture") {
         document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
     }
     if pointer == "/images/0/mimeType" {

@@ -11,7 +11,8 @@ const SHAPES: &[&str] = &[
     r#"<shape type="disk"/>"#,
     r#"<shape type="cylinder"/>"#,
     r#"<shape type="merge"><shape type="sphere"/></shape>"#,
-    r#"<shape type="bsplinecurve"/>"#,
+    r#"<shape type="bsplinecurve"><string name="filename" value="strands.txt"/></shape>"#,
+    r#"<shape type="linearcurve"><string name="filename" value="strands.txt"/></shape>"#,
     r#"<shape type="sdfgrid"/>"#,
 ];
 
@@ -31,6 +32,8 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="plastic"/>"#,
     r#"<bsdf type="plastic"><rgb name="specular_reflectance" value="0.5"/></bsdf>"#,
     r#"<bsdf type="roughplastic"/>"#,
+    r#"<bsdf type="roughplastic"><rgb name="specular_reflectance" value="0.5"/><boolean name="nonlinear" value="true"/></bsdf>"#,
+    r#"<bsdf type="thindielectric"><rgb name="specular_transmittance" value="0.5"/></bsdf>"#,
     r#"<bsdf type="pplastic"/>"#,
     r#"<bsdf type="phong"/>"#,
     r#"<bsdf type="principled"/>"#,
@@ -42,6 +45,7 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="bumpmap"><texture type="bitmap"><string name="filename" value="pixel.png"/></texture><bsdf type="diffuse"/></bsdf>"#,
     r#"<bsdf type="null"/>"#,
     r#"<bsdf type="hair"/>"#,
+    r#"<bsdf type="hair"><rgb name="sigma_a" value="0.2, 0.25, 0.7"/><float name="scale" value="2"/></bsdf>"#,
     r#"<bsdf type="measured"/>"#,
     r#"<bsdf type="polarizer"/>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="pixel.png"/><string name="wrap_mode" value="clamp"/></texture></bsdf>"#,
@@ -50,9 +54,16 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="diffuse"><texture name="reflectance" type="volume"/></bsdf>"#,
     r#"<emitter type="area"><rgb name="radiance" value="3"/></emitter>"#,
     r#"<emitter type="area"><spectrum name="radiance" type="blackbody"><float name="temperature" value="3000"/></spectrum></emitter>"#,
+    r#"<emitter type="directionalarea"/>"#,
+];
+
+/// The same in a scene whose integrator sees media.
+const MEDIA: &[&str] = &[
     r#"<medium name="interior" type="homogeneous"><phase type="hg"><float name="g" value="0.5"/></phase></medium>"#,
     r#"<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="constvolume"><float name="value" value="2"/></volume></medium>"#,
+    r#"<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="gridvolume"><string name="filename" value="grid.vol"/></volume><volume name="albedo" type="gridvolume"><string name="filename" value="grid.vol"/></volume></medium>"#,
     r#"<medium name="interior" type="homogeneous"><phase type="rayleigh"/></medium>"#,
+    r#"<medium name="interior" type="homogeneous"><phase type="tabphase"/></medium>"#,
 ];
 
 /// What stands in the scene.
@@ -65,11 +76,13 @@ const OUTSIDE: &[&str] = &[
     r#"<emitter type="envmap"><string name="filename" value="pixel.png"/></emitter>"#,
     r#"<emitter type="projector"><texture name="irradiance" type="bitmap"><string name="filename" value="pixel.png"/></texture></emitter>"#,
     r#"<emitter type="sunsky"/>"#,
-    r#"<emitter type="directionalarea"/>"#,
     r#"<sensor type="perspective"/>"#,
     r#"<sensor type="thinlens"><float name="aperture_radius" value="0.1"/></sensor>"#,
     r#"<sensor type="orthographic"/>"#,
+    r#"<sensor type="radiancemeter"><point name="origin" value="0, 0, 5"/><vector name="direction" value="0, 0, -1"/></sensor>"#,
     r#"<sensor type="irradiancemeter"/>"#,
+    r#"<sensor type="distant"/>"#,
+    r#"<sensor type="batch"/>"#,
     r#"<sensor type="perspective"><film type="hdrfilm"><integer name="crop_width" value="4"/></film></sensor>"#,
     r#"<sensor type="perspective"><film type="hdrfilm"><rfilter type="lanczos"/></film></sensor>"#,
     r#"<sensor type="perspective"><sampler type="multijitter"/></sensor>"#,
@@ -80,7 +93,10 @@ const OUTSIDE: &[&str] = &[
     r#"<integrator type="ptracer"/>"#,
     r#"<integrator type="depth"/>"#,
     r#"<integrator type="moment"><integrator type="path"/></integrator>"#,
+    r#"<integrator type="volpath"><boolean name="hide_emitters" value="true"/></integrator>"#,
     r#"<integrator type="pssmlt"/>"#,
+    r#"<integrator type="mlt"><boolean name="bidirectional_mutation" value="true"/></integrator>"#,
+    r#"<integrator type="ppm"><float name="initial_radius" value="0.1"/></integrator>"#,
     r#"<default name="a" value="1"/>"#,
     r#"<path value="."/>"#,
     r#"<include filename="missing.xml"/>"#,
@@ -89,12 +105,19 @@ const OUTSIDE: &[&str] = &[
 pub(crate) fn write(out: &mut String) {
     let bench = Bench::new();
     std::fs::write(bench.path("triangle.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    std::fs::write(bench.path("strands.txt"), "0 0 0 0.1\n1 0 0 0.2\n1 1 0 0.1\n0 1 0 0\n").expect("written");
+    let header = [1u32, 1, 1, 1, 1].map(u32::to_le_bytes).concat();
+    let values = [0.0f32, 0.0, 0.0, 1.0, 1.0, 1.0, 0.5].map(f32::to_le_bytes).concat();
+    std::fs::write(bench.path("grid.vol"), [b"VOL\x03".as_slice(), &header, &values].concat())
+        .expect("written");
     let scene = |inside: &str| format!("<scene version=\"3.0.0\">{inside}</scene>");
     let shapes = SHAPES.iter().map(|s| (*s, scene(s)));
     let inside = INSIDE.iter().map(|s| (*s, scene(&format!("<shape type=\"sphere\">{s}</shape>"))));
+    let volpath = "<integrator type=\"volpath\"/>";
+    let media = MEDIA.iter().map(|s| (*s, scene(&format!("<shape type=\"sphere\">{s}</shape>{volpath}"))));
     let outside = OUTSIDE.iter().map(|s| (*s, scene(&format!("<shape type=\"sphere\"/>{s}"))));
     let (mut read, mut told) = (Vec::new(), String::new());
-    for (feature, text) in shapes.chain(inside).chain(outside) {
+    for (feature, text) in shapes.chain(inside).chain(media).chain(outside) {
         let outcome = bench.try_file("scene.xml", text);
         match outcome {
             Outcome::Read => read.push(format!("- `{feature}`\n")),

@@ -36,7 +36,7 @@ pub struct Scattered {
     pub sigma_a: Rgb,
     /// Scattering coefficient there, 1/m.
     pub sigma_s: Rgb,
-    /// How directions are drawn: `henyey-greenstein` or `waterdrops`.
+    /// How directions are drawn: `henyey-greenstein`, `waterdrops` or `rayleigh`.
     pub phase: String,
     /// Mean cosine of the deflection.
     pub g: Number,

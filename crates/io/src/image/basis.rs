@@ -4,11 +4,11 @@ use std::panic::catch_unwind;
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use durer_scene::{AssetError, Image, ImageData};
 
-use super::source::Source;
+use super::{
+    ktx::{HEADER, KTX, refused},
+    source::Source,
+};
 
-const KTX: &str = "KTX 2 file";
-/// The fixed part of a header.
-const HEADER: usize = 80;
 /// Where a header tells of what all levels share.
 const SHARED: usize = 64;
 /// Bytes by which a header tells of a level.
@@ -16,34 +16,17 @@ const LEVEL: usize = 24;
 /// Pixels along an edge of a block, and the most bytes of one.
 const BLOCK_EDGE: u32 = 4;
 const BLOCK_BYTES: u64 = 16;
-/// Plain areas pack to next to nothing; real pictures do not.
-const BEST_RATIO: u64 = 1 << 14;
 
-/// Reads the largest picture of a file.
-pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
-    if source.bytes.len() < HEADER {
-        return Err(source.cut(KTX, "its header"));
-    }
-    let number = |offset: usize| source.i32_at(offset) as u32;
-    let [format, width, height, depth, layers, faces] = [12, 20, 24, 28, 32, 36].map(number);
-    source.check_size(width.into(), height.into(), 4, BEST_RATIO)?;
-    let refused = |what: &str| {
-        Err(source.unsupported(format!("a {KTX} {what}, which durer does not read; export it as PNG or EXR")))
-    };
-    if depth > 1 || layers > 1 || faces != 1 {
-        return refused("of more than one picture");
-    }
-    if format != 0 {
-        return refused("that is not packed by Basis Universal");
-    }
+/// Reads the largest picture of a file, of this size.
+pub(super) fn decode(source: &Source<'_>, [width, height]: [u32; 2]) -> Result<Image, AssetError> {
     let damaged = || source.damaged(KTX, "its pixel data cannot be decoded");
-    if !has_sound_levels(source, [width, height], number(40)) {
+    if !has_sound_levels(source, [width, height], source.i32_at(40) as u32) {
         return Err(damaged());
     }
     // Damaged pixels make the decoder panic, as fuzzing shows: what it had in hand is gone with it.
     let (has_alpha, rgba) = match catch_unwind(|| unpacked(source.bytes, (width, height))) {
         Ok(Ok(unpacked)) => unpacked,
-        Ok(Err(Refused::Kind)) => return refused("of a rare kind"),
+        Ok(Err(Refused::Kind)) => return Err(refused(source, "of a rare kind")),
         Ok(Err(Refused::Damage)) | Err(_) => return Err(damaged()),
     };
     let (pixels, _) = rgba.as_chunks::<4>();

@@ -5,6 +5,7 @@
 mod basis;
 mod exr;
 mod jpeg;
+mod ktx;
 mod output;
 mod pfm;
 mod png;
@@ -56,7 +57,7 @@ const SIGNATURES: &[Signature] = &[
     known(b"Pf\r\n", "portable float map (PFM)", pfm::decode),
     foreign(b"GIF8", 0, "GIF"),
     Signature { bytes: b"WEBP", offset: 8, name: "WebP", decode: Some(raster::decode_webp) },
-    known(b"\xabKTX 20\xbb\r\n\x1a\n", "KTX 2", basis::decode),
+    known(b"\xabKTX 20\xbb\r\n\x1a\n", "KTX 2", ktx::decode),
     foreign(b"\xabKTX 11\xbb\r\n\x1a\n", 0, "KTX"),
     foreign(b"DDS ", 0, "DirectDraw surface (DDS)"),
     foreign(b"II*\0", 0, "TIFF"),

@@ -16,7 +16,7 @@ use durer_core::{
     spectrum::{Curve, Spectrum},
 };
 
-use super::{Distribution, Facets, SMOOTH, fresnel_dielectric, refract};
+use super::{Facets, SMOOTH, fresnel_dielectric, refract};
 
 /// Nodes of `t` over the square root of the cosine.
 const NODES: usize = 16;
@@ -29,6 +29,15 @@ const WIDTHS: usize = 12;
 /// Step between indices that are tabulated where the index varies, and how many steps there are at most.
 const STEP: f32 = 0.1;
 const MOST_STEPS: f32 = 8.0;
+
+/// What the body is to light that the coat sends back to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Again {
+    /// What it is to all light.
+    Colored,
+    /// White: `f = t(o) t(i) / eta² (R / pi) / (1 - B)` where nothing ends the walk.
+    White,
+}
 
 /// How much passes the coat, by the cosine outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,9 +148,9 @@ pub struct Coat {
 
 impl Coat {
     /// Of an index relative to the outside, or all indices of a curve, and a thickness in units of the mean free path of what
-    /// absorbs below the coat. `alpha` is the width of its facets, if that is the same everywhere, and how they are distributed. Widths that differ along and
-    /// across are taken to be their mean: it blurs `t` a little.
-    pub fn new(eta: (f32, Option<&Curve>), thickness: f32, alpha: (Option<f32>, Distribution)) -> Self {
+    /// absorbs below the coat. `alpha` is the width of its facets, if that is the same everywhere, and some that are like them but
+    /// for that. Widths that differ along and across are taken to be their mean: it blurs `t` a little.
+    pub fn new(eta: (f32, Option<&Curve>), thickness: f32, alpha: (Option<f32>, Facets)) -> Self {
         let ends = eta.1.map_or([eta.0; 2], Curve::ends);
         let [low, high] = ends;
         let steps = ((high - low) / STEP).ceil().min(MOST_STEPS);
@@ -150,13 +159,20 @@ impl Coat {
     }
 
     /// The body of this albedo below facets of an index, seen under a cosine, for walks that meet it this often at most.
-    pub fn body(&self, albedo: Spectrum, (eta, facets): (f32, &Facets), bounces: u32, cos: f32) -> Body {
+    pub fn body(
+        &self,
+        (albedo, again): (Spectrum, Again),
+        (eta, facets): (f32, &Facets),
+        bounces: u32,
+        cos: f32,
+    ) -> Body {
         let [low, high] = self.ends;
         let x = if high > low { (eta - low) / (high - low) * (self.of.len() - 1) as f32 } else { 0.0 };
         let row = between(&self.of, x, |of| of.row(facets), Row::mixed);
         let scale = 1.0 / sqr(eta);
         let color = albedo.map(|r| {
-            let back = r * (1.0 - row.out * scale);
+            let color = if again == Again::White { 1.0 } else { r };
+            let back = color * (1.0 - row.out * scale);
             r * scale * (1.0 - powi(back, bounces)) / (1.0 - back)
         });
         Body { color, mean: row.mean, towards: row.passage.at(cos), passage: row.passage }
@@ -175,8 +191,8 @@ fn between<T>(all: &[T], x: f32, of: impl Fn(&T) -> Row, mix: impl Fn(&Row, &Row
 }
 
 impl Widths {
-    fn new(eta: f32, thickness: f32, (alpha, like): (Option<f32>, Distribution)) -> Self {
-        let row = |alpha: f32| Row::new(eta, thickness, &Facets::round(alpha).distributed(like));
+    fn new(eta: f32, thickness: f32, (alpha, like): (Option<f32>, Facets)) -> Self {
+        let row = |alpha: f32| Row::new(eta, thickness, &like.of_widths(alpha, alpha));
         let rough = match alpha {
             Some(alpha) if alpha < SMOOTH => Vec::new(),
             Some(alpha) => vec![row(alpha)],

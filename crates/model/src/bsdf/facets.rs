@@ -25,6 +25,16 @@ pub enum Distribution {
     Beckmann,
 }
 
+/// How microfacets hide each other from two directions at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadowing {
+    /// By their heights: what is high up is seen from both (Heitz 2014, equation 99).
+    #[default]
+    Correlated,
+    /// The share seen from either, multiplied (Walter et al. 2007).
+    Separable,
+}
+
 /// Which formulas hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
@@ -46,22 +56,23 @@ pub struct Facets {
     // PERF: less than the direction itself, so that lobes do not grow (bench render).
     half_turn: f32,
     form: Form,
+    shadowing: Shadowing,
 }
 
 impl Facets {
     /// GGX, the same in all directions.
     pub const fn round(alpha: f32) -> Self {
-        Self { x: alpha, y: alpha, half_turn: 0.0, form: Form::Round }
+        Self { x: alpha, y: alpha, half_turn: 0.0, form: Form::Round, shadowing: Shadowing::Correlated }
     }
     /// GGX of two widths, along and across a direction of the surface given in the frame of the lobes.
     pub fn along(tangent: Vector3, x: f32, y: f32) -> Self {
         let length = (sqr(tangent.x) + sqr(tangent.y)).sqrt();
         if x == y || length.is_nan() || length <= 0.0 || x.max(y) < SMOOTH {
-            return Self { x, y, half_turn: 0.0, form: form(x, y) };
+            return Self { form: form(x, y), y, ..Self::round(x) };
         }
         // A tangent and its opposite are the same.
         let half_turn = tangent.y * if tangent.x < 0.0 { -1.0 } else { 1.0 } / (length + tangent.x.abs());
-        Self { x: x.max(LEAST), y: y.max(LEAST), half_turn, form: Form::Long }
+        Self { y: y.max(LEAST), half_turn, form: Form::Long, ..Self::round(x.max(LEAST)) }
     }
     /// With normals distributed like this.
     #[must_use]
@@ -70,6 +81,11 @@ impl Facets {
             Distribution::Ggx => Self { form: form(self.x, self.y), ..self },
             Distribution::Beckmann => Self { form: Form::Beckmann, ..self },
         }
+    }
+    /// That hide each other like this.
+    #[must_use]
+    pub fn shadowed(self, shadowing: Shadowing) -> Self {
+        Self { shadowing, ..self }
     }
     /// How their normals are distributed.
     pub fn distribution(&self) -> Distribution {
@@ -131,6 +147,9 @@ impl Facets {
     /// Shadowing and masking divided by four cosines, which are given as well: above 0.
     #[inline]
     pub(super) fn visibility(&self, (o, cos_o): (Vector3, f32), (i, cos_i): (Vector3, f32)) -> f32 {
+        if self.shadowing == Shadowing::Separable {
+            return 0.25 * self.seen((o, cos_o)) * self.seen((i, cos_i)) / (cos_o * cos_i);
+        }
         match self.form {
             Form::Round => ggx::visibility(cos_o, cos_i, self.x),
             Form::Long => 0.5 / (cos_i * self.root(o) + cos_o * self.root(i)),
@@ -142,10 +161,15 @@ impl Facets {
     /// Smith's masking of a direction with z above 0: the share of microfacets seen from it.
     #[inline]
     pub(super) fn masking(&self, o: Vector3) -> f32 {
+        self.seen((o, o.z))
+    }
+    /// The same of any direction, whose cosine is given as well: above 0.
+    #[inline]
+    fn seen(&self, (w, cos): (Vector3, f32)) -> f32 {
         match self.form {
-            Form::Round => ggx::masking(o.z, self.x),
-            Form::Long => 2.0 * o.z / (o.z + self.root(o)),
-            Form::Beckmann => beckmann::masking(self.turned(o), self.widths()),
+            Form::Round => ggx::masking(cos, self.x),
+            Form::Long => 2.0 * cos / (cos + self.root(w)),
+            Form::Beckmann => beckmann::masking(self.turned(w), self.widths()),
         }
     }
     /// `G2 / G1(o)`, of directions with z above 0 and any z: the share of the facets seen from `o` that `i` sees too.

@@ -82,6 +82,13 @@ pub enum Reflectance {
         /// Extinction, 0 or more.
         k: Spectrum,
     },
+    /// What a dielectric reflects, tinted.
+    Tinted {
+        /// Relative index, above 0.
+        eta: f32,
+        /// Factor on it, in `[0, 1]`.
+        tint: Spectrum,
+    },
     /// Not what a dielectric reflects but the rest, tinted.
     Passed {
         /// Relative index, above 0.
@@ -104,6 +111,7 @@ impl Reflectance {
                 f0.zip(f90, |f0, f90| f0 + (f90 - f0) * rise)
             }
             Self::Index { eta, k } => eta.zip(k, |eta, k| fresnel_conductor(cos.min(1.0), eta, k)),
+            Self::Tinted { eta, tint } => tint * fresnel_dielectric(cos.min(1.0), eta),
             Self::Passed { eta, tint } => tint * (1.0 - fresnel_dielectric(cos.min(1.0), eta)),
         }
     }
@@ -112,6 +120,7 @@ impl Reflectance {
         match *self {
             Self::Schlick { f0, f90 } => (f0, f90),
             Self::Index { .. } => (self.at(1.0), Spectrum::ONE),
+            Self::Tinted { tint, .. } => (self.at(1.0), tint),
             Self::Passed { .. } => (self.at(1.0), Spectrum::BLACK),
         }
     }

@@ -46,9 +46,9 @@ pub use blurred::{Blur, Blurred};
 pub use bounced::{Bounced, Sheen};
 pub use branch::{Branch, BranchKind, Branches, GlossyView};
 pub use burley::Burley;
-pub use coat::{Body, Coat};
+pub use coat::{Again, Body, Coat};
 pub use draw::{Drawn, Draws};
-pub use facets::{Distribution, Facets};
+pub use facets::{Distribution, Facets, Shadowing};
 pub use fresnel::{
     Reflectance, fresnel_conductor, fresnel_dielectric, fresnel_polarized, normal_reflectance, schlick,
 };

@@ -38,8 +38,8 @@ impl Camera for Spherical {
     fn ray(&self, film: Point2, _lens: Point2, time: f32) -> Ray {
         let place = match self.layout {
             // Beyond the poles and the seam the angles go on by themselves.
-            Layout::LatitudeLongitude => [film.x, film.y],
             Layout::EqualArea => within(film),
+            _ => [film.x, film.y],
         };
         let d = self.layout.direction(place);
         Ray { time, ..Ray::new(Point3::ZERO, Vector3::new(d.x, d.z, d.y).normalize()) }
@@ -58,15 +58,15 @@ impl Camera for Spherical {
     /// Of the equal-area map the same everywhere, `1 / 4 pi`; of the other `1 / (2 pi² sin)`, for the angle from the zenith.
     fn importance(&self, d: Vector3, distance: f32) -> f32 {
         let density = match self.layout {
-            Layout::LatitudeLongitude => 0.5 / (sqr(PI) * (sqr(d.x) + sqr(d.z)).sqrt()),
             Layout::EqualArea => 0.25 / PI,
+            _ => 0.5 / (sqr(PI) * (sqr(d.x) + sqr(d.z)).sqrt()),
         };
         density / sqr(distance)
     }
     fn repeats(&self, Point2 { x, y }: Point2) -> Vec<Point2> {
         let places = match self.layout {
             // Beyond the seam, and beyond the poles half a turn away.
-            Layout::LatitudeLongitude => {
+            Layout::LatitudeLongitude | Layout::PoleToPole(_) => {
                 let turned = if x < 0.5 { x + 0.5 } else { x - 0.5 };
                 let beside = |x: f32, y: f32| [[x - 1.0, y], [x, y], [x + 1.0, y]];
                 [beside(x, y), beside(turned, -y), beside(turned, 2.0 - y)].concat()

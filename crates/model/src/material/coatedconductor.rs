@@ -49,6 +49,7 @@ impl Kind for CoatedConductor {
             COAT_ROUGHNESS.v(),
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
             Layers::THICKNESS,
             Layers::ALBEDO,
             Layers::G,
@@ -83,7 +84,9 @@ impl Material for CoatedConductor {
         // Read as relative to the coat at 587.6 nm.
         let (metal_eta, k) = match metal {
             Reflectance::Index { eta: metal, k } => (metal * (eta_d / eta), k * (eta_d / eta)),
-            Reflectance::Schlick { .. } | Reflectance::Passed { .. } => (Spectrum::ONE, Spectrum::BLACK),
+            Reflectance::Schlick { .. } | Reflectance::Tinted { .. } | Reflectance::Passed { .. } => {
+                (Spectrum::ONE, Spectrum::BLACK)
+            }
         };
         let layered = self.layers.walked(cx, coat, Below::Metal { eta: metal_eta, k, facets: below });
         if is_sharp {

@@ -8,10 +8,13 @@ use durer_core::{
 };
 use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, conductor::reflecting, detail::Detail, roughness::Roughness, share, share_input};
+use super::{
+    Material, REFLECTION, conductor::reflecting, detail::Detail, read_factor, roughness::Roughness, share,
+    share_input,
+};
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Below, Bsdf, Cloud, Coat, Facets, Layered, Lobe, Matte, Reflectance},
+    bsdf::{Again, Below, Bsdf, Cloud, Coat, Facets, Layered, Lobe, Matte, Reflectance},
 };
 
 /// The coat's parameters that both coated materials have.
@@ -104,6 +107,14 @@ impl Layers {
     }
 }
 
+const NONLINEAR: ParamSpec = ParamSpec::new(
+    "nonlinear",
+    ParamType::Bool,
+    ParamDefault::Bool(true),
+    "Light that the coat sends back to the body takes its colour each time, as in nature; if not the body counts as white \
+     there, and keeps the colour that it was given. Without effect where light scatters in the coat.",
+);
+
 /// A body under a coat.
 #[derive(Debug)]
 pub struct CoatedDiffuse {
@@ -111,6 +122,10 @@ pub struct CoatedDiffuse {
     roughness: Roughness,
     layers: Layers,
     coat: Coat,
+    /// Whether light that the coat sends back to the body takes its colour once more.
+    again: Again,
+    /// On what the coat reflects.
+    factor: Option<ColorInput>,
     detail: Detail,
 }
 
@@ -129,11 +144,14 @@ impl Kind for CoatedDiffuse {
             Roughness::V,
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
             Layers::THICKNESS,
             Layers::ALBEDO,
             Layers::G,
             Layers::MAX_DEPTH,
             Layers::SAMPLES,
+            NONLINEAR,
+            REFLECTION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -149,6 +167,8 @@ impl Kind for CoatedDiffuse {
             ),
             roughness,
             layers,
+            again: if args.bool(NONLINEAR.name) { Again::Colored } else { Again::White },
+            factor: read_factor(args, &REFLECTION),
             detail: Detail::read(args),
         }))
     }
@@ -163,11 +183,18 @@ impl Material for CoatedDiffuse {
         let eta = self.layers.index(&cx.basis);
         let body = match self.layers.cloud {
             Some(_) => Lobe::Layered(self.layers.walked(cx, facets, Below::Matte { albedo })),
-            None => {
-                Lobe::Matte(Matte::Coated(self.coat.body(albedo, (eta, &facets), self.layers.bounces, cos)))
-            }
+            None => Lobe::Matte(Matte::Coated(self.coat.body(
+                (albedo, self.again),
+                (eta, &facets),
+                self.layers.bounces,
+                cos,
+            ))),
         };
-        let outside = reflecting(Reflectance::dielectric(eta), facets, cos);
+        let outside = match &self.factor {
+            None => Reflectance::dielectric(eta),
+            Some(factor) => Reflectance::Tinted { eta, tint: share(cx, factor, &surface.texture_at()) },
+        };
+        let outside = reflecting(outside, facets, cos);
         self.layers.led(cx, Bsdf::default().with(body).with(outside))
     }
 }

@@ -141,6 +141,7 @@ impl Kind for Conductor {
             Roughness::V,
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
             COMPENSATION,
             REFLECTION,
             Detail::DISPLACEMENT,

@@ -39,6 +39,7 @@ impl Kind for Dielectric {
             Roughness::V,
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
             REFLECTION,
             TRANSMISSION,
             Detail::DISPLACEMENT,

@@ -29,6 +29,7 @@ impl Kind for Mirror {
             Roughness::V,
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {

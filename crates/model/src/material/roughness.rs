@@ -5,7 +5,7 @@ use durer_scene::{Args, FloatInput, ParamDefault, ParamSpec, ParamType};
 use super::sent::facet_gain;
 use crate::{
     ShadeCx, Surface,
-    bsdf::{Distribution, Facets},
+    bsdf::{Distribution, Facets, Shadowing},
 };
 
 /// Roughness of microfacets, along u and across it.
@@ -16,6 +16,7 @@ pub(super) struct Roughness {
     /// Roughness is the square of the width, as pbrt-v4 has it unless told otherwise.
     remap: bool,
     like: Distribution,
+    shadowing: Shadowing,
 }
 
 /// What the four parameters are called.
@@ -60,6 +61,14 @@ impl Roughness {
         "Of the normals of microfacets.",
     );
 
+    pub(super) const SHADOWING: ParamSpec = ParamSpec::new(
+        "shadowing",
+        ParamType::Choice(&["correlated", "separable"]),
+        ParamDefault::Text("correlated"),
+        "How microfacets hide each other from two directions: by their heights, as in pbrt-v4, or for each by itself, which is a \
+         little darker, as in Mitsuba.",
+    );
+
     /// Reads the parameters.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
         Self::read_as(args, Words::USUAL)
@@ -74,7 +83,11 @@ impl Roughness {
             "beckmann" => Distribution::Beckmann,
             _ => Distribution::Ggx,
         };
-        Self { u, v, remap: args.bool("remaproughness"), like }
+        let shadowing = match args.text(Self::SHADOWING.name) {
+            "separable" => Shadowing::Separable,
+            _ => Shadowing::Correlated,
+        };
+        Self { u, v, remap: args.bool("remaproughness"), like, shadowing }
     }
 
     /// The facets at a place whose shading normal is settled.
@@ -85,14 +98,16 @@ impl Roughness {
             if self.remap { value.sqrt() } else { value }
         };
         if self.u == self.v {
-            return Facets::round(alpha(self.u)).distributed(self.like);
+            let alpha = alpha(self.u);
+            return self.like().map(|_| alpha);
         }
-        Facets::along(tangent(surface), alpha(self.u), alpha(self.v)).distributed(self.like)
+        let facets = Facets::along(tangent(surface), alpha(self.u), alpha(self.v));
+        facets.distributed(self.like).shadowed(self.shadowing)
     }
 
-    /// How normals are distributed.
-    pub(super) fn like(&self) -> Distribution {
-        self.like
+    /// Facets like these, of some width.
+    pub(super) fn like(&self) -> Facets {
+        Facets::round(1.0).distributed(self.like).shadowed(self.shadowing)
     }
 
     /// The largest `pi f cos` of what is reflected.

@@ -13,7 +13,7 @@ use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Sc
 use super::{Material, conductor::reflecting, detail::Detail, roughness::Roughness, share, share_input};
 use crate::{
     Medium, ShadeCx, Surface,
-    bsdf::{Bsdf, Coat, Interface, Lobe, Matte, Reflectance},
+    bsdf::{Again, Bsdf, Coat, Interface, Lobe, Matte, Reflectance},
     medium::{HalfSpace, HenyeyGreenstein, Inside},
     texture::TextureAt,
 };
@@ -157,6 +157,7 @@ impl Kind for Subsurface {
             Roughness::V,
             Roughness::REMAP,
             Roughness::DISTRIBUTION,
+            Roughness::SHADOWING,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
@@ -201,7 +202,12 @@ impl Material for Subsurface {
         let cos = surface.n_s.dot(wo).abs().min(1.0);
         let eta = self.medium.eta(&cx.basis);
         Bsdf::default()
-            .with(Lobe::Matte(Matte::Coated(self.coat.body(albedo, (eta, &facets), ALL, cos))))
+            .with(Lobe::Matte(Matte::Coated(self.coat.body(
+                (albedo, Again::Colored),
+                (eta, &facets),
+                ALL,
+                cos,
+            ))))
             .with(reflecting(Reflectance::dielectric(eta), facets, cos))
     }
     fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {

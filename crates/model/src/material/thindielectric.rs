@@ -4,9 +4,9 @@ use durer_core::{
     math::Vector3,
     spectrum::{Color, Curve, Spectrum},
 };
-use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
+use durer_scene::{Args, ColorInput, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
-use super::{Material, detail::Detail};
+use super::{Material, REFLECTION, TRANSMISSION, detail::Detail, read_factor, share};
 use crate::{
     ShadeCx, Surface,
     bsdf::{Bsdf, Lobe, fresnel_dielectric},
@@ -17,6 +17,8 @@ use crate::{
 pub struct ThinDielectric {
     /// At 587.6 nm, and how it changes with wavelength if it does: no direction depends on it, each wavelength has its own.
     eta: (f32, Option<Curve>),
+    /// On what is reflected and let through.
+    factors: [Option<ColorInput>; 2],
     detail: Detail,
 }
 
@@ -34,12 +36,18 @@ impl Kind for ThinDielectric {
                 "Index of refraction of the pane, relative to what is on both sides of it.",
             )
             .range(0.1, 10.0),
+            REFLECTION,
+            TRANSMISSION,
             Detail::DISPLACEMENT,
             Detail::NORMAL_MAP,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Self { eta: args.refraction("eta"), detail: Detail::read(args) }))
+        Some(Box::new(Self {
+            eta: args.refraction("eta"),
+            factors: [&REFLECTION, &TRANSMISSION].map(|spec| read_factor(args, spec)),
+            detail: Detail::read(args),
+        }))
     }
 }
 
@@ -55,9 +63,13 @@ impl Material for ThinDielectric {
             (eta, None) => Spectrum::splat(reflected(*eta)),
             (eta, Some(curve)) => cx.basis.curve(curve, Color { rgb: [*eta; 3] }).map(reflected),
         };
-        Bsdf::default()
-            .with(Lobe::Mirror { weight: all })
-            .with(Lobe::PassThrough { weight: all.map(|r| 1.0 - r) })
+        let (mut back, mut on) = (all, all.map(|r| 1.0 - r));
+        for (weight, factor) in [&mut back, &mut on].into_iter().zip(&self.factors) {
+            if let Some(factor) = factor {
+                *weight *= share(cx, factor, &surface.texture_at());
+            }
+        }
+        Bsdf::default().with(Lobe::Mirror { weight: back }).with(Lobe::PassThrough { weight: on })
     }
     fn is_passed(&self) -> bool {
         true

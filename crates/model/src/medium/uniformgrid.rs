@@ -18,12 +18,12 @@ pub struct UniformGrid;
 pub(super) struct Size;
 
 impl Size {
-    const fn along(name: &'static str, doc: &'static str) -> ParamSpec {
-        ParamSpec::new(name, ParamType::Int, ParamDefault::Int(1), doc).range(1.0, 65_536.0)
+    pub(super) const fn along(name: &'static str, usual: i32, doc: &'static str) -> ParamSpec {
+        ParamSpec::new(name, ParamType::Int, ParamDefault::Int(usual), doc).range(usual as f32, 65_536.0)
     }
-    pub(super) const X: ParamSpec = Self::along("nx", "Values along x, which changes fastest.");
-    pub(super) const Y: ParamSpec = Self::along("ny", "Values along y.");
-    pub(super) const Z: ParamSpec = Self::along("nz", "Values along z.");
+    pub(super) const X: ParamSpec = Self::along("nx", 1, "Values along x, which changes fastest.");
+    pub(super) const Y: ParamSpec = Self::along("ny", 1, "Values along y.");
+    pub(super) const Z: ParamSpec = Self::along("nz", 1, "Values along z.");
     pub(super) const LOW: ParamSpec =
         ParamSpec::new("p0", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "A corner of the box, m.");
     pub(super) const HIGH: ParamSpec =
@@ -64,7 +64,7 @@ impl Size {
         let grid = Grid::new(size, values);
         if grid.is_none() {
             let [x, y, z] = size;
-            args.error(name, format!("\"{name}\" has {count} values, expected nx ny nz = {x} x {y} x {z}"));
+            args.error(name, format!("\"{name}\" has {count} values, expected {x} x {y} x {z}"));
         }
         let clamped = args.text(Self::EDGES.name) == "clamp";
         grid.map(|grid| grid.clamped(clamped))

@@ -93,6 +93,14 @@ impl Kind for Curve {
             .unit("m")
             .range(0.0, f32::INFINITY),
             ParamSpec::new(
+                "widths",
+                ParamType::Floats,
+                ParamDefault::Unset,
+                "Widths of the control points instead, as many as \"P\" has: mixed as the points are.",
+            )
+            .unit("m")
+            .range(0.0, f32::INFINITY),
+            ParamSpec::new(
                 "N",
                 ParamType::Normals,
                 ParamDefault::Unset,
@@ -134,10 +142,31 @@ impl Kind for Curve {
         let normals = ribbon_normals(args, form, (count, normals))?;
         let width = args.float("width");
         let [w0, w1] = ["width0", "width1"].map(|name| args.optional_float(name).unwrap_or(width));
+        let widths = args.floats("widths");
+        if !widths.is_empty() && widths.len() != points.len() {
+            let message = format!(
+                "\"widths\" has {} values, expected {}, as many as \"P\"",
+                widths.len(),
+                points.len()
+            );
+            args.error("widths", message);
+            return None;
+        }
+        let weights = bezier(degree, is_spline);
         let mut strands = Strands { form, points: Vec::new(), radii: Vec::new(), normals };
         for segment in 0..count {
             let control = &points[segment * step..];
-            strands.points.extend(bezier(control, degree, is_spline));
+            strands.points.extend(weights.map(|weights| {
+                let parts = control.iter().zip(weights).map(|(p, w)| p.to_f64() * w);
+                Point3::from_f64(parts.fold(Vector3::ZERO.to_f64(), |sum, part| sum + part))
+            }));
+            if let Some(own) = widths.get(segment * step..).filter(|own| !own.is_empty()) {
+                strands.radii.extend(weights.map(|weights| {
+                    let parts = own.iter().zip(weights).map(|(width, w)| 0.5 * f64::from(*width) * w);
+                    parts.sum::<f64>() as f32
+                }));
+                continue;
+            }
             // The same bits where segments meet, so that tubes have no walls there.
             let at = |i: usize| 0.5 * (w0 + (w1 - w0) * (i as f32 / (3 * count) as f32));
             strands.radii.extend((0..Strands::POINTS).map(|i| at(3 * segment + i)));
@@ -174,31 +203,49 @@ fn ribbon_normals(
     Some(given.windows(2).flat_map(between).collect())
 }
 
-/// The cubic Bezier control points of the segment that begins with these points.
-fn bezier(p: &[Point3], degree: usize, is_spline: bool) -> [Point3; 4] {
-    let blend = |weights: &[f64]| {
-        let sum = p.iter().zip(weights).fold(Vector3::ZERO.to_f64(), |sum, (p, w)| sum + p.to_f64() * *w);
-        Point3::from_f64(sum)
-    };
-    let cubed = |q: [[f64; 3]; 3]| {
-        let mixed =
-            |a: f64, b: f64, c: f64| blend(&[0, 1, 2].map(|i| a * q[0][i] + b * q[1][i] + c * q[2][i]));
-        let third = 1.0 / 3.0;
-        [blend(&q[0]), mixed(third, 2.0 * third, 0.0), mixed(0.0, 2.0 * third, third), blend(&q[2])]
+/// What each control point of a segment counts in the four points of its cubic Bezier curve.
+fn bezier(degree: usize, is_spline: bool) -> [[f64; 4]; 4] {
+    let third = 1.0 / 3.0;
+    let cubed = |q: [[f64; 4]; 3]| {
+        let mixed = |a: f64, b: f64, c: f64| [0, 1, 2, 3].map(|i| a * q[0][i] + b * q[1][i] + c * q[2][i]);
+        [q[0], mixed(third, 2.0 * third, 0.0), mixed(0.0, 2.0 * third, third), q[2]]
     };
     match (degree, is_spline) {
-        (2, false) => cubed([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-        (2, true) => cubed([[0.5, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 0.5]]),
-        (_, false) => [p[0], p[1], p[2], p[3]],
+        (2, false) => cubed([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]),
+        (2, true) => cubed([[0.5, 0.5, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.5, 0.5, 0.0]]),
+        (_, false) => [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| if i == j { 1.0 } else { 0.0 })),
         (_, true) => {
-            let (sixth, third) = (1.0 / 6.0, 1.0 / 3.0);
-            let knot = [sixth, 4.0 * sixth, sixth];
+            let sixth = 1.0 / 6.0;
             [
-                blend(&knot),
-                blend(&[0.0, 2.0 * third, third]),
-                blend(&[0.0, third, 2.0 * third]),
-                blend(&[0.0, knot[0], knot[1], knot[2]]),
+                [sixth, 4.0 * sixth, sixth, 0.0],
+                [0.0, 2.0 * third, third, 0.0],
+                [0.0, third, 2.0 * third, 0.0],
+                [0.0, sixth, 4.0 * sixth, sixth],
             ]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_of_control_points_are_mixed_as_the_points_are() {
+        let control = [0.0f64, 6.0, 12.0, 0.0];
+        let blended =
+            bezier(3, true).map(|weights| control.iter().zip(weights).map(|(v, w)| v * w).sum::<f64>());
+        // (0 + 24 + 12) / 6, (12 + 12) / 3, (6 + 24) / 3, (6 + 48 + 0) / 6.
+        for (found, expected) in blended.iter().zip([6.0, 8.0, 10.0, 9.0]) {
+            assert!((found - expected).abs() < 1e-12, "{blended:?}");
+        }
+        for (degree, is_spline) in [(2, false), (2, true), (3, false), (3, true)] {
+            for weights in bezier(degree, is_spline) {
+                assert!(
+                    (weights.iter().sum::<f64>() - 1.0).abs() < 1e-12,
+                    "{degree} {is_spline} {weights:?}"
+                );
+            }
         }
     }
 }

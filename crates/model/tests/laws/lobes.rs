@@ -2,9 +2,9 @@
 use durer_core::math::Vector3;
 use durer_core::spectrum::Spectrum;
 use durer_model::bsdf::{
-    Below, Blur, Blurred, Bounced, Bsdf, Burley, Cloud, Coat, Distribution, Facets, Gloss, Glossy, Hair,
-    Highlight, Interface, Layered, Lobe, Matte, Phong, Reflectance, Sheen, Sheet, Split, Strand, Tilted,
-    Under, Varnish, Veil,
+    Again, Below, Blur, Blurred, Bounced, Bsdf, Burley, Cloud, Coat, Distribution, Facets, Gloss, Glossy,
+    Hair, Highlight, Interface, Layered, Lobe, Matte, Phong, Reflectance, Shadowing, Sheen, Sheet, Split,
+    Strand, Tilted, Under, Varnish, Veil,
 };
 
 /// Grey of a value.
@@ -28,6 +28,17 @@ pub(super) fn normal(facets: Facets) -> Facets {
     facets.distributed(Distribution::Beckmann)
 }
 
+/// The same facets that hide each other for each direction by itself.
+fn apart(facets: Facets) -> Facets {
+    facets.shadowed(Shadowing::Separable)
+}
+
+/// What a coat of glass reflects, dimmed.
+fn tinted(facets: Facets) -> Lobe {
+    let reflectance = Reflectance::Tinted { eta: 1.5, tint: grey(0.4) };
+    Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
+}
+
 /// Rough metal.
 pub(super) fn metal(facets: Facets) -> Lobe {
     let reflectance = Reflectance::Index { eta: grey(0.2), k: grey(3.0) };
@@ -41,8 +52,13 @@ pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe {
 
 /// A matte body of this albedo below a coat of this roughness, walks of `bounces`.
 pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
-    let coat = Coat::new((1.5, None), 0.01, (Some(alpha), Distribution::Ggx));
-    Lobe::Matte(Matte::Coated(coat.body(grey(albedo), (1.5, &Facets::round(alpha)), bounces, 1.0)))
+    coated_as(albedo, alpha, bounces, Again::Colored)
+}
+
+/// The same whose body is something else to light that comes back.
+fn coated_as(albedo: f32, alpha: f32, bounces: u32, again: Again) -> Lobe {
+    let coat = Coat::new((1.5, None), 0.01, (Some(alpha), Facets::round(alpha)));
+    Lobe::Matte(Matte::Coated(coat.body((grey(albedo), again), (1.5, &Facets::round(alpha)), bounces, 1.0)))
 }
 
 /// Metal below a coat.
@@ -119,6 +135,12 @@ pub(super) fn spread() -> Vec<Lobe> {
         glossy(normal(round(0.2))),
         glossy(normal(brushed(0.7, 0.25))),
         metal(normal(round(1.0))),
+        metal(apart(round(0.4))),
+        glossy(apart(brushed(0.6, 0.2))),
+        metal(apart(normal(brushed(0.3, 0.7)))),
+        frosted(1.5, apart(round(0.4))),
+        frosted(1.5, apart(normal(round(0.5)))),
+        tinted(round(0.3)),
         frosted(1.5, round(0.4)),
         frosted(1.0 / 1.33, brushed(0.25, 0.6)),
         frosted(1.5, normal(round(0.4))),
@@ -131,6 +153,8 @@ pub(super) fn spread() -> Vec<Lobe> {
         bounced(round(0.8)),
         bounced(normal(round(0.8))),
         coated(0.8, 0.4, 5),
+        coated_as(0.3, 0.4, 1000, Again::White),
+        coated_as(0.7, 0.0, 1000, Again::White),
         phong(1.0, false),
         phong(40.0, false),
         phong(60.0, true),

@@ -28,7 +28,7 @@ pub(crate) fn serve(scene: &str, options: Options) -> Live {
             said.map(|d| d.message.clone()).collect::<Vec<_>>().join("\n")
         }),
     };
-    match Live::start(durer::open(scene), config) {
+    match Live::start(durer::open_for(scene, &config.options), config) {
         Ok(live) => live,
         Err(durer_view::StartError::Scene(imported)) => panic!("{:?}", imported.diagnostics),
         Err(durer_view::StartError::System(error)) => panic!("{error}"),

@@ -5,6 +5,7 @@ mod develop;
 mod door;
 mod forms;
 mod picture;
+mod pose;
 mod rays;
 mod reload;
 mod save;

@@ -30,9 +30,12 @@ impl Teller<'_> {
         let (Some(hit), Some(shading)) = (&node.hit, &node.shading) else { return sentences };
         if self.children[index].iter().any(|&c| self.node(c as usize).kind == RayKind::Passing) {
             let name = &self.prepared.scene.object(hit.object).name;
-            sentences.push(format!(
-                "What is behind the surface of \"{name}\" is what is before it, so the ray goes on as if it was not there."
-            ));
+            sentences.push(match self.prepared.scene.object(hit.object).light {
+                Some(_) => format!("The lamp \"{name}\" is hidden from the eye, so the ray goes on as if it was not there."),
+                None => format!(
+                    "What is behind the surface of \"{name}\" is what is before it, so the ray goes on as if it was not there."
+                ),
+            });
             return sentences;
         }
         sentences.extend(self.absorbed(node, hit, shading));

@@ -8,7 +8,7 @@ use durer_scene::{CameraDesc, Data, FilmDesc, LightDesc, Node, Params, ValueType
 use super::element::{Checked, Element};
 
 /// The placement `world` without scale, shear and mirroring: what a camera or light inherits from its node.
-fn rigid(world: &DAffine3) -> DAffine3 {
+pub(super) fn rigid(world: &DAffine3) -> DAffine3 {
     let m = world.matrix3;
     let z = m.z_axis.try_normalize().unwrap_or(DVec3::Z);
     let y = (m.y_axis - z * z.dot(m.y_axis)).try_normalize().unwrap_or_else(|| z.any_orthonormal_vector());
@@ -16,7 +16,7 @@ fn rigid(world: &DAffine3) -> DAffine3 {
 }
 
 /// A motion with something done to each of its keys.
-fn carried(motion: &Motion, make: impl Fn(&DAffine3) -> DAffine3) -> Motion {
+pub(super) fn carried(motion: &Motion, make: impl Fn(&DAffine3) -> DAffine3) -> Motion {
     let keys = motion.keys().iter().map(|(time, m)| (*time, make(m))).collect();
     Motion::keyed(keys).unwrap_or_else(|_| Motion::still(make(&motion.at(0.0))))
 }

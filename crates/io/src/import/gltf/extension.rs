@@ -8,6 +8,8 @@ use super::{
 
 /// Read completely, or as far as a picture shows.
 const READ: &[&str] = &[
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",

@@ -2,7 +2,7 @@
 //!
 //! Occlusion textures are ignored knowingly: rays find out what is hidden from what.
 use durer_core::Id;
-use durer_scene::{Data, MaterialRef, NamedNode, Node, Params, ValueType};
+use durer_scene::{Data, LightDesc, MaterialRef, NamedNode, Node, Params, ValueType};
 
 use super::{
     document::Document,
@@ -24,6 +24,9 @@ pub(super) struct Looks {
     /// Those of the file, by index, then variants of them. One that is at fault stays in its place with no parameters.
     pub(super) list: Vec<NamedNode>,
     sets: Vec<[usize; 2]>,
+    /// The files of luminaires, and what shines all around.
+    pub(super) luminaires: Vec<String>,
+    pub(super) surround: Option<LightDesc>,
     /// By index: the variant for meshes with tangents of their own.
     with_tangents: Vec<Option<usize>>,
 }

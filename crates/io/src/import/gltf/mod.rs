@@ -17,7 +17,9 @@ mod element;
 mod extension;
 mod instance;
 mod json;
+mod kept;
 mod layers;
+mod luminaire;
 mod material;
 mod mesh;
 mod meshopt;
@@ -29,6 +31,7 @@ mod reel;
 mod skin;
 mod stance;
 mod structure;
+mod surround;
 mod texture;
 mod variant;
 

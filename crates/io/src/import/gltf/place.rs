@@ -14,7 +14,7 @@ use super::{
     camera,
     document::{Document, only},
     element::{Checked, Element},
-    instance,
+    instance, luminaire,
     material::Looks,
     mesh::{Asked, Known, Meshes, Pose},
     node::Hierarchy,
@@ -103,6 +103,9 @@ impl<'w, 'a> Walk<'w, 'a> {
             let light = self.light(&reference.required("light")?)?;
             let name = if node.name().is_empty() { light.name() } else { node.name() };
             desc.lights.push(camera::light(&light, name, &world)?);
+        }
+        if let Some(carrier) = node.extension(luminaire::NAME)? {
+            desc.lights.push(luminaire::light(&carrier, (node.name(), &world), &self.looks.luminaires)?);
         }
         let Some(mesh) = self.document.member(node, "mesh", "meshes")? else {
             return Ok(());

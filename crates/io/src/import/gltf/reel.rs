@@ -14,12 +14,14 @@ use super::{
     buffer::Buffers,
     document::Document,
     element::{Checked, Element},
+    luminaire,
     material::Looks,
     mesh::Known,
     node::Hierarchy,
     place::Walk,
     roots,
     stance::{Stance, Story},
+    surround,
     texture::Textures,
 };
 use crate::import::{Imported, Moment};
@@ -101,6 +103,9 @@ impl Reel {
                 let mut textures = Textures::new((&document, buffers), &mut imported.assets, images);
                 *looks = Some(Looks::read(&document, &mut textures)?);
                 desc.textures = textures.list;
+                let looks = looks.get_or_insert_default();
+                looks.luminaires = luminaire::names((&document, buffers), &mut imported.assets)?;
+                looks.surround = surround::light((&document, buffers), &mut imported.assets)?;
             } else {
                 desc.textures = std::mem::take(&mut imported.desc.textures);
             }
@@ -110,6 +115,7 @@ impl Reel {
             let story = Story { stances: &stances, animation: animation.as_ref(), moved: &moved };
             Walk::new((&document, buffers), (&nodes, story), looks).run(&roots, meshes, &mut desc)?;
             desc.materials = looks.list.clone();
+            desc.lights.extend(looks.surround.clone());
             buffers.warn_of_unused(&document)
         };
         if let Err(fault) = shot() {

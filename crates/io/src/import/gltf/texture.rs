@@ -5,9 +5,10 @@ use durer_core::{glam::DAffine3, math::float};
 use durer_scene::{Data, Location, Node, Params, TextureDesc, TextureValue, ValueType};
 
 use super::{
-    buffer::{Buffers, Uri, parse_uri},
+    buffer::Buffers,
     document::Document,
     element::{Checked, Element},
+    kept,
 };
 use crate::FileAssets;
 
@@ -127,20 +128,7 @@ impl<'b, 'a> Textures<'b, 'a> {
         }
         let image = self.document.item("images", &source)?;
         let embedded = format!("image:{index}");
-        let name = match image.get("uri")? {
-            Some(uri) => match parse_uri(&uri)? {
-                Uri::Path(path) => path.into_owned(),
-                Uri::Data(bytes) => {
-                    self.assets.insert(embedded.clone(), bytes);
-                    embedded
-                }
-            },
-            None => {
-                let view = self.buffers.view(self.document, &image.required("bufferView")?)?;
-                self.assets.insert(embedded.clone(), view.bytes?);
-                embedded
-            }
-        };
+        let name = kept::file((self.document, self.buffers), self.assets, &image, embedded)?;
         self.assets.used_by(&name, format!("material \"{}\"", self.material));
         self.filenames.insert(index, name.clone());
         Ok(Some((name, self.document.location(image.pointer()))))

@@ -1,14 +1,15 @@
 //! Materials. Those of Mitsuba that reflect only are black from behind: ours get a side.
 use std::rc::Rc;
 
-use durer_scene::{Data, MaterialRef, Params, TextureValue, ValueType};
+use durer_scene::{Data, MaterialRef, Params, ValueType};
 
 use super::{
+    hair,
     index::relative,
     layered, metal,
-    object::{Object, Value},
-    principled, texture,
-    world::{Plugin, Role, Shade, World},
+    object::Object,
+    principled, tilted,
+    world::{Plugin, Role, World},
 };
 
 /// Makes kind and parameters of a material that is made of no other.
@@ -16,7 +17,7 @@ pub(super) type Build = fn(&mut World<'_>, &Object) -> Option<(&'static str, Par
 
 /// Whether a material is the same from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Backs {
+pub(super) enum Backs {
     /// As the plugin says.
     Own,
     /// Around it there is one that says so.
@@ -57,14 +58,15 @@ const OPAQUE: &[Plugin<Build>] = &[
     },
     Plugin {
         name: "plastic",
-        takes: &["diffuse_reflectance", "int_ior", "ext_ior", "nonlinear"],
-        lacks: &["specular_reflectance"],
+        takes: &["diffuse_reflectance", "specular_reflectance", "int_ior", "ext_ior", "nonlinear"],
+        lacks: &[],
         build: layered::plastic,
     },
     Plugin {
         name: "roughplastic",
         takes: &[
             "diffuse_reflectance",
+            "specular_reflectance",
             "int_ior",
             "ext_ior",
             "nonlinear",
@@ -72,13 +74,22 @@ const OPAQUE: &[Plugin<Build>] = &[
             "alpha",
             "sample_visible",
         ],
-        lacks: &["specular_reflectance"],
+        lacks: &[],
         build: layered::plastic,
     },
     Plugin {
         name: "pplastic",
-        takes: &["diffuse_reflectance", "int_ior", "ext_ior", "distribution", "alpha", "alpha_u", "alpha_v"],
-        lacks: &["specular_reflectance"],
+        takes: &[
+            "diffuse_reflectance",
+            "specular_reflectance",
+            "int_ior",
+            "ext_ior",
+            "distribution",
+            "alpha",
+            "alpha_u",
+            "alpha_v",
+        ],
+        lacks: &[],
         build: layered::plastic,
     },
     Plugin {
@@ -99,8 +110,8 @@ const OPEN: &[Plugin<Build>] = &[
     },
     Plugin {
         name: "thindielectric",
-        takes: &["int_ior", "ext_ior"],
-        lacks: &["specular_reflectance", "specular_transmittance"],
+        takes: &["int_ior", "ext_ior", "specular_reflectance", "specular_transmittance"],
+        lacks: &[],
         build: thin,
     },
     Plugin {
@@ -119,6 +130,7 @@ const OPEN: &[Plugin<Build>] = &[
         lacks: &[],
         build: dielectric,
     },
+    Plugin { name: "hair", takes: hair::TAKES, lacks: &[], build: hair::hair },
     Plugin { name: "null", takes: &[], lacks: &[], build: |_, _| Some(("interface", Params::new())) },
     Plugin { name: "difftrans", takes: &["transmittance"], lacks: &[], build: transmitting },
     Plugin {
@@ -149,9 +161,14 @@ pub(super) fn material(world: &mut World<'_>, object: &Rc<Object>) -> Option<Mat
 }
 
 /// Changes the parameters of a material: what a normal or bump map does to the one in it.
-type Change<'c> = &'c mut dyn FnMut(Params) -> Params;
+pub(super) type Change<'c> = &'c mut dyn FnMut(Params) -> Params;
 
-fn made(world: &mut World<'_>, object: &Rc<Object>, backs: Backs, change: Change<'_>) -> Option<MaterialRef> {
+pub(super) fn made(
+    world: &mut World<'_>,
+    object: &Rc<Object>,
+    backs: Backs,
+    change: Change<'_>,
+) -> Option<MaterialRef> {
     if object.tag != "bsdf" {
         world.said.error(object.at, format!("{} is no bsdf", object.shown()));
         return None;
@@ -175,7 +192,7 @@ fn made(world: &mut World<'_>, object: &Rc<Object>, backs: Backs, change: Change
         "twosided" => two_sided(world, object, change),
         "mask" => masked(world, object, backs, change),
         "blendbsdf" => blended(world, object, backs, change),
-        "normalmap" | "bumpmap" => tilted(world, object, backs, change),
+        "normalmap" | "bumpmap" => tilted::tilted(world, object, backs, change),
         other => {
             let all = OPAQUE.iter().chain(OPEN).map(|p| p.name).chain(NESTED);
             world.said.unknown(object.at, "bsdf", other, all);
@@ -199,7 +216,7 @@ fn sides(
 }
 
 /// The materials in another; complains if there are not as many as one of `counts` says.
-fn within(world: &mut World<'_>, object: &Object, counts: &[usize]) -> Option<Vec<Rc<Object>>> {
+pub(super) fn within(world: &mut World<'_>, object: &Object, counts: &[usize]) -> Option<Vec<Rc<Object>>> {
     let all = world.of_tag(object, "bsdf");
     if !counts.contains(&all.len()) {
         let (shown, found) = (object.shown(), all.len());
@@ -247,75 +264,6 @@ fn blended(world: &mut World<'_>, object: &Object, backs: Backs, change: Change<
     Some(world.material(&object.id, "mix", params, object.at))
 }
 
-/// A normal map or a bump map around another material.
-fn tilted(world: &mut World<'_>, object: &Object, backs: Backs, change: Change<'_>) -> Option<MaterialRef> {
-    let is_bump = object.plugin == "bumpmap";
-    let mut takes = vec![if is_bump { "scale" } else { "normalmap" }];
-    // The texture of a bump map may have any name.
-    takes.extend(object.children.iter().filter(|_| is_bump).map(|c| c.name.as_str()));
-    world.check(object, &takes, &["flip_invalid_normals", "use_shadowing_function"]);
-    let all = within(world, object, &[1])?;
-    let inner = Rc::clone(all.first()?);
-    let texture = world.inner(object).into_iter().find(|(_, o)| o.tag == "texture").map(|(_, o)| o);
-    let Some(texture) = texture else {
-        world.said.error(object.at, format!("{} has no texture", object.shown()));
-        return None;
-    };
-    let params = if is_bump {
-        let name = texture::name(world, &texture, TextureValue::Float)?;
-        let scale = object.number_or("scale", 1.0, world.said) as f32;
-        let scaled = format!("{name} times {scale}");
-        if scale != 1.0 && !world.desc.textures.iter().any(|t| t.name == scaled) {
-            let params = Params::new().texture("tex", &name).float("scale", scale);
-            world.desc.textures.push(durer_scene::TextureDesc {
-                name: scaled.clone(),
-                value: TextureValue::Float,
-                node: super::world::node("scale", params, object.at),
-                world_from_texture: durer_core::glam::DAffine3::IDENTITY,
-            });
-        }
-        Some(Params::new().texture("displacement", if scale == 1.0 { &name } else { &scaled }))
-    } else {
-        normals(world, &texture)?
-    };
-    if inner.plugin == "null" && params.is_some() {
-        world.once(object.at, format!("{} in {}: the map has no effect", inner.shown(), object.shown()));
-    }
-    let params = params.filter(|_| inner.plugin != "null");
-    let mut with = |given: Params| {
-        params.iter().flat_map(Params::iter).fold(change(given), |mut all, p| {
-            all.push(p.clone());
-            all
-        })
-    };
-    world.deeper(&inner, |w| made(w, &inner, backs, &mut with))
-}
-
-/// The parameters of a normal map; none where it is even and straight.
-fn normals(world: &mut World<'_>, texture: &Object) -> Option<Option<Params>> {
-    match texture.plugin.as_str() {
-        "bitmap" => {
-            world.check(
-                texture,
-                &["filename", "raw"],
-                &["filter_type", "wrap_mode", "to_uv", "format", "accel"],
-            );
-            let path = world.path(texture, "filename")?;
-            Some(Some(Params::new().string("normalmap", &path)))
-        }
-        "rawconstant"
-            if matches!(texture.get("value").map(|p| &p.value), Some(Value::Triple([0.5, 0.5, 1.0]))) =>
-        {
-            Some(None)
-        }
-        _ => {
-            let message = "a normal map must be a bitmap here: another one has no effect";
-            world.once(texture.at, message.to_owned());
-            Some(None)
-        }
-    }
-}
-
 fn diffuse(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
     Some(("diffuse", world.color(Params::new(), object, ("reflectance", "reflectance"))))
 }
@@ -330,10 +278,11 @@ fn rough_diffuse(world: &mut World<'_>, object: &Object) -> Option<(&'static str
     ))
 }
 
-/// Roughness as parameters of ours: alpha itself, and the distribution.
+/// Roughness as parameters of ours: alpha itself, the distribution, and facets that hide each other for each direction by itself.
 pub(super) fn roughness(world: &mut World<'_>, object: &Object, params: Params) -> Params {
     let distribution = object.word("distribution", &["beckmann", "ggx"], world.said);
     let params = params.string("distribution", distribution).bool("remaproughness", false);
+    let params = params.string("shadowing", "separable");
     let given = |name: &str| object.get(name).is_some() || object.children.iter().any(|c| c.name == name);
     if given("alpha_u") || given("alpha_v") {
         let params = world.number(params, object, ("alpha_u", "uroughness"));
@@ -353,9 +302,7 @@ fn conductor(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Pa
 }
 
 fn dielectric(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
-    let params = Params::new().float("eta", relative(world, object, "bk7"));
-    let params = world.color(params, object, ("specular_reflectance", "reflection"));
-    let params = world.color(params, object, ("specular_transmittance", "transmission"));
+    let params = pane(world, object);
     Some((
         "dielectric",
         if object.plugin == "dielectric" { params } else { roughness(world, object, params) },
@@ -363,7 +310,14 @@ fn dielectric(world: &mut World<'_>, object: &Object) -> Option<(&'static str, P
 }
 
 fn thin(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
-    Some(("thindielectric", Params::new().float("eta", relative(world, object, "bk7"))))
+    Some(("thindielectric", pane(world, object)))
+}
+
+/// Index and factors of glass.
+fn pane(world: &mut World<'_>, object: &Object) -> Params {
+    let params = Params::new().float("eta", relative(world, object, "bk7"));
+    let params = world.color(params, object, ("specular_reflectance", "reflection"));
+    world.color(params, object, ("specular_transmittance", "transmission"))
 }
 
 fn phong(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params)> {
@@ -385,12 +339,4 @@ fn transmitting(world: &mut World<'_>, object: &Object) -> Option<(&'static str,
             None => params.rgb("transmittance", [0.5; 3]),
         },
     ))
-}
-
-/// A colour as three numbers, if it is the same everywhere.
-pub(super) fn even(shade: &Shade) -> Option<[f32; 3]> {
-    match shade {
-        Shade::Rgb(rgb) => Some(*rgb),
-        Shade::Curve(_) | Shade::Texture(_) => None,
-    }
 }

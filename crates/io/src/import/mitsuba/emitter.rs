@@ -92,10 +92,13 @@ pub(super) fn area(world: &mut World<'_>, shape: &Object) -> Option<Arc<Node>> {
     let own = world.of_tag(shape, "emitter");
     let light = own.first()?;
     if light.plugin != "area" {
-        world
-            .said
-            .error(light.at, format!("{} is no light of a shape", light.shown()))
-            .hint("expected \"area\"");
+        let hint = match light.plugin.as_str() {
+            "directionalarea" => {
+                "no path meets light that leaves along normals only: expected \"area\", or a \"directional\" light"
+            }
+            _ => "expected \"area\"",
+        };
+        world.said.error(light.at, format!("{} is no light of a shape", light.shown())).hint(hint);
         return None;
     }
     world.check(light, &["radiance"], &["sampling_weight"]);
@@ -169,7 +172,7 @@ fn constant(world: &mut World<'_>, object: &Object) -> Vec<(&'static str, Params
 fn envmap(world: &mut World<'_>, object: &Object) -> Vec<(&'static str, Params, DAffine3)> {
     let Some(path) = world.path(object, "filename") else { return Vec::new() };
     let scale = object.number_or("scale", 1.0, world.said) as f32;
-    let params = Params::new().string("filename", &path).float("scale", scale).string("layout", "latlong");
+    let params = Params::new().string("filename", &path).float("scale", scale).string("layout", "poletopole");
     let turned = DMat3::from_cols(DVec3::NEG_Z, DVec3::X, DVec3::Y);
     // Where it stands has no effect: it is far away.
     let place = object.transform("to_world", world.said).matrix3 * turned;

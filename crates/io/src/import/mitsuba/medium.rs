@@ -27,7 +27,7 @@ fn made(world: &mut World<'_>, object: &Object) -> Option<MediumRef> {
         world.note(prop.at, format!("\"{}\" has no effect", prop.name));
     }
     let scale = object.number_or("scale", 1.0, world.said) as f32;
-    let g = phase(world, object);
+    let phase = phase(world, object);
     let (kind, params, place) = match object.plugin.as_str() {
         "homogeneous" => ("homogeneous", even(world, object)?, DAffine3::IDENTITY),
         "heterogeneous" => uneven(world, object)?,
@@ -36,7 +36,11 @@ fn made(world: &mut World<'_>, object: &Object) -> Option<MediumRef> {
             return None;
         }
     };
-    let params = params.float("scale", scale).float("g", g);
+    let params = match phase {
+        Phase::Mean(g) => params.float("g", g),
+        Phase::Rayleigh => params.string("phase", "rayleigh"),
+    };
+    let params = params.float("scale", scale);
     let media = &mut world.desc.media;
     let used = |name: &str| media.iter().any(|m| m.name == name);
     let free = !object.id.is_empty() && !used(&object.id);
@@ -45,27 +49,35 @@ fn made(world: &mut World<'_>, object: &Object) -> Option<MediumRef> {
     Some(MediumRef::new(media.len() as u32 - 1))
 }
 
-/// The mean cosine of what scatters.
-fn phase(world: &mut World<'_>, medium: &Object) -> f32 {
-    let Some(object) = world.of_tag(medium, "phase").into_iter().next() else { return 0.0 };
+/// How particles scatter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// By the mean cosine.
+    Mean(f32),
+    Rayleigh,
+}
+
+fn phase(world: &mut World<'_>, medium: &Object) -> Phase {
+    let even = Phase::Mean(0.0);
+    let Some(object) = world.of_tag(medium, "phase").into_iter().next() else { return even };
     match object.plugin.as_str() {
-        "isotropic" => {
+        word @ ("isotropic" | "rayleigh") => {
             world.check(&object, &[], &[]);
-            0.0
+            if word == "rayleigh" { Phase::Rayleigh } else { even }
         }
         "hg" => {
             world.check(&object, &["g"], &[]);
-            object.number_or("g", 0.8, world.said).clamp(-0.999, 0.999) as f32
+            Phase::Mean(object.number_or("g", 0.8, world.said).clamp(-0.999, 0.999) as f32)
         }
-        "rayleigh" | "blendphase" | "tabphase" | "sggx" => {
+        "blendphase" | "tabphase" | "sggx" => {
             let message =
                 format!("phase \"{}\": light is scattered evenly in all directions instead", object.plugin);
             world.once(object.at, message);
-            0.0
+            even
         }
         other => {
             world.said.unknown(object.at, "phase", other, ["isotropic", "hg", "rayleigh"]);
-            0.0
+            even
         }
     }
 }
@@ -124,9 +136,16 @@ fn uneven(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Param
     };
     let Grid { size: [nx, ny, nz], ref values, place } = sigma_t;
     let is_even = |grid: &Grid| grid.values.len() == 1;
+    if !is_even(&albedo) && !is_even(&sigma_t) && albedo.place == place {
+        let params = with_colors(Params::new(), "sigma_t", sigma_t.values.iter().copied());
+        let shares = albedo.values.iter().map(|a| a.map(|a| a.clamp(0.0, 1.0)));
+        let params = with_colors(params, "albedo", shares);
+        let names = ["albedonx", "albedony", "albedonz"];
+        let params = names.into_iter().zip(albedo.size).fold(params, |p, (name, n)| p.int(name, n as i32));
+        return Some(("rgbgrid", sized(params, sigma_t.size), place));
+    }
     if !is_even(&albedo) && !is_even(&sigma_t) {
-        let message =
-            "the products of extinction and albedo are mixed between the points of the grid, not both apart";
+        let message = "extinction and albedo lie in different boxes: their products at the points of the first grid are mixed";
         world.note(object.at, message.to_owned());
     }
     // Where only the albedo varies its grid is the grid of both.

@@ -6,7 +6,9 @@
 //! of textures grows downwards. docs/mitsuba.md says what differs.
 
 mod bsdf;
+mod curve;
 mod emitter;
+mod hair;
 mod index;
 mod integrator;
 mod layered;
@@ -21,6 +23,7 @@ mod sensor;
 mod serialized;
 mod shape;
 mod texture;
+mod tilted;
 mod transform;
 mod upgrade;
 mod value;

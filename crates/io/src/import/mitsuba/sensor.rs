@@ -2,7 +2,7 @@
 use std::rc::Rc;
 
 use durer_core::{
-    glam::{DAffine3, DVec3},
+    glam::{DAffine3, DMat3, DVec3},
     math::Motion,
 };
 use durer_scene::{CameraDesc, Crop, Data, MediumInterface, Params, ValueType};
@@ -14,7 +14,19 @@ use super::{
 };
 
 /// Cameras that ours are made from.
-const SENSORS: [&str; 3] = ["perspective", "thinlens", "orthographic"];
+const SENSORS: [&str; 4] = ["perspective", "thinlens", "orthographic", "radiancemeter"];
+/// Those that are none of a camera, and what to take instead.
+const OTHERS: [(&str, &str); 4] = [
+    (
+        "irradiancemeter",
+        "a radiancemeter, or an orthographic camera before a white diffuse surface there, measures light as well",
+    ),
+    ("distant", "an orthographic camera outside the scene that looks along \"direction\" sees the same"),
+    ("batch", "give each of its sensors a file of its own"),
+    ("fluencemeter", "light through a point is measured by a spherical camera of a .pbrt file"),
+];
+/// Half the width of what a meter sees, in metres: a ray.
+const RAY: f32 = 1e-9;
 /// Parameters of all.
 const TAKES: &[&str] = &[
     "to_world",
@@ -30,6 +42,8 @@ const TAKES: &[&str] = &[
     "shutter_open",
     "shutter_close",
 ];
+/// Those of a meter.
+const METER: &[&str] = &["to_world", "origin", "direction", "shutter_open", "shutter_close"];
 /// Filters: theirs, ours, radius.
 const FILTERS: [(&str, &str, f64); 6] = [
     ("box", "box", 0.5),
@@ -45,10 +59,16 @@ const SAMPLERS: [&str; 6] = ["independent", "stratified", "multijitter", "orthog
 /// Adds the camera that `object` is; the first one's film is the picture.
 pub(super) fn add(world: &mut World<'_>, object: &Rc<Object>) {
     if !SENSORS.contains(&object.plugin.as_str()) {
-        world.said.unknown(object.at, "sensor", &object.plugin, SENSORS);
+        match OTHERS.iter().find(|(name, _)| *name == object.plugin) {
+            Some((name, instead)) => {
+                world.said.error(object.at, format!("sensor \"{name}\" has no counterpart")).hint(*instead);
+            }
+            None => world.said.unknown(object.at, "sensor", &object.plugin, SENSORS),
+        }
         return;
     }
-    world.check(object, TAKES, &[]);
+    let is_meter = object.plugin == "radiancemeter";
+    world.check(object, if is_meter { METER } else { TAKES }, &[]);
     for name in ["near_clip", "far_clip"] {
         if let Some(prop) = object.get(name) {
             world.note(prop.at, format!("\"{name}\" has no effect: nothing is clipped"));
@@ -56,9 +76,16 @@ pub(super) fn add(world: &mut World<'_>, object: &Rc<Object>) {
     }
     let (width, height) = film(world, object);
     let aspect = width / height;
-    let placed = object.transform("to_world", world.said);
+    let placed = match is_meter {
+        true => aimed(world, object),
+        false => object.transform("to_world", world.said),
+    };
     let media = world.of_tag(object, "medium").first().and_then(|o| medium::medium(world, o));
     let params = match object.plugin.as_str() {
+        "radiancemeter" => {
+            let window = [-RAY, RAY, -RAY, RAY].to_vec();
+            Params::new().with("screenwindow", ValueType::Float, Data::Floats(window))
+        }
         "orthographic" => {
             let window = [-1.0, 1.0, -1.0 / aspect, 1.0 / aspect].map(|v| v as f32);
             Params::new().with("screenwindow", ValueType::Float, Data::Floats(window.to_vec()))
@@ -81,7 +108,8 @@ pub(super) fn add(world: &mut World<'_>, object: &Rc<Object>) {
         Some(close) => params.float("shutterclose", close as f32),
         None => params,
     };
-    let kind = if object.plugin == "orthographic" { "orthographic" } else { "perspective" };
+    let is_flat = is_meter || object.plugin == "orthographic";
+    let kind = if is_flat { "orthographic" } else { "perspective" };
     // Mitsuba's cameras have x to the left, ours to the right.
     let mirrored = placed * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
     world.desc.cameras.push(CameraDesc {
@@ -90,6 +118,29 @@ pub(super) fn add(world: &mut World<'_>, object: &Rc<Object>) {
         world_from_camera: Motion::still(mirrored),
         media: media.map(|outside| MediumInterface { inside: None, outside: Some(outside) }),
     });
+}
+
+/// Where the ray of a meter starts, and where z goes: by "origin" and "direction", or placed.
+fn aimed(world: &mut World<'_>, object: &Object) -> DAffine3 {
+    let [origin, direction] = ["origin", "direction"].map(|name| object.triple(name, world.said));
+    let (Some(origin), Some(direction)) = (origin, direction) else {
+        if origin.is_some() || direction.is_some() {
+            world
+                .said
+                .error(object.at, "radiancemeter needs both \"origin\" and \"direction\", or \"to_world\"");
+        }
+        return object.transform("to_world", world.said);
+    };
+    match DVec3::from(direction).try_normalize() {
+        Some(z) => {
+            let (x, y) = z.any_orthonormal_pair();
+            DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), origin.into())
+        }
+        None => {
+            world.said.error(object.at, "\"direction\" of a radiancemeter is 0 0 0");
+            DAffine3::IDENTITY
+        }
+    }
 }
 
 fn perspective(world: &mut World<'_>, object: &Object, aspect: f64) -> Params {

@@ -8,7 +8,7 @@ use durer_core::{
 use durer_scene::{MaterialRef, MediumInterface, Node, Params, ShapeDesc, ShapeSource};
 
 use super::{
-    bsdf, emitter, medium, mesh,
+    bsdf, curve, emitter, medium, mesh,
     object::Object,
     world::{Plugin, World, node},
 };
@@ -53,7 +53,12 @@ const SHAPES: &[Plugin<Build>] = &[
         lacks: &[],
         build: cylinder,
     },
+    Plugin { name: "bsplinecurve", takes: STRANDS, lacks: &[], build: curve::strands },
+    Plugin { name: "linearcurve", takes: STRANDS, lacks: &[], build: curve::strands },
 ];
+
+/// What strands have.
+const STRANDS: &[&str] = &["filename", "to_world", "flip_normals", "silhouette_sampling_weight"];
 
 /// Adds the shape that `object` is, placed by what it is in.
 pub(super) fn add(world: &mut World<'_>, object: &Rc<Object>, outer: DAffine3) {

@@ -35,6 +35,10 @@ pub(super) struct Density {
 /// The solid angle of the cells of a row.
 fn cell(layout: Layout, row: u32, [width, height]: [u32; 2]) -> f32 {
     match layout {
+        Layout::PoleToPole(_) => {
+            let above = |row: u32| layout.share_above(f64::from(row) / f64::from(height));
+            (4.0 * std::f64::consts::PI * (above(row + 1) - above(row)) / f64::from(width)) as f32
+        }
         Layout::LatitudeLongitude => {
             // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2)
             let half = 0.5 * PI / height as f32;
@@ -87,7 +91,7 @@ impl Density {
         let (column, u, share) = steps::pick(self.line(row), u[0]);
         let [width, height] = self.size.map(|n| n as f32);
         let d = match self.layout {
-            Layout::LatitudeLongitude => {
+            Layout::LatitudeLongitude | Layout::PoleToPole(_) => {
                 // Even in z: down the cell by the share of its solid angle.
                 let above = |row: usize| self.layout.share_above(row as f64 / f64::from(height)) as f32;
                 let share = lerp(v, above(row), above(row + 1));

@@ -1,7 +1,7 @@
 //! How a picture is wrapped around the sphere.
 //!
 //! Latitude-longitude: z is up, the top row is at +z; u runs with the azimuth from +x by +y (pbrt-v3, *Physically Based
-//! Rendering*, 3rd edition, section 12.6). Equal area: the octahedral map of Clarberg 2008 ("Fast equal-area mapping of the
+//! Rendering*, 3rd edition, section 12.6); or so that the middles of the first and the last row are the poles. Equal area: the octahedral map of Clarberg 2008 ("Fast equal-area mapping of the
 //! (hemi)sphere using SIMD"), +z in the middle, -z in the four corners (4th edition, section 12.5.2).
 use std::f32::consts::{FRAC_PI_4, PI, TAU};
 
@@ -15,18 +15,22 @@ use durer_core::math::{
 pub(crate) enum Layout {
     /// Azimuth across, angle from the zenith down.
     LatitudeLongitude,
+    /// The same, the first and the last of so many rows in the poles: at least two.
+    PoleToPole(u32),
     /// Every texel sees the same solid angle.
     EqualArea,
 }
 
 impl Layout {
     /// The words of scene files; `auto` decides by the picture's shape.
-    pub(super) const WORDS: &[&str] = &["auto", "latlong", "equalarea"];
+    pub(super) const WORDS: &[&str] = &["auto", "latlong", "poletopole", "equalarea"];
 
     /// The layout of one of [`Self::WORDS`] for a picture of this size.
     pub(super) fn of_word(word: &str, width: u32, height: u32) -> Self {
         match word {
             "latlong" => Self::LatitudeLongitude,
+            "poletopole" if height > 1 => Self::PoleToPole(height),
+            "poletopole" => Self::LatitudeLongitude,
             "equalarea" => Self::EqualArea,
             _ if width == height => Self::EqualArea,
             _ => Self::LatitudeLongitude,
@@ -41,6 +45,10 @@ impl Layout {
                 let turned = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
                 let from_zenith = atan2((sqr(d.x) + sqr(d.y)).sqrt(), d.z);
                 [turned / TAU, from_zenith / PI]
+            }
+            Self::PoleToPole(rows) => {
+                let [u, v] = Self::LatitudeLongitude.uv(d);
+                [u, (v * (rows - 1) as f32 + 0.5) / rows as f32]
             }
             Self::EqualArea => {
                 let (x, y) = (d.x.abs(), d.y.abs());
@@ -64,6 +72,9 @@ impl Layout {
                 let r = sin(from_zenith);
                 Vector3::new(r * cos(azimuth), r * sin(azimuth), cos(from_zenith))
             }
+            Self::PoleToPole(rows) => {
+                Self::LatitudeLongitude.direction([u, from_pole(rows, v.into()) as f32])
+            }
             Self::EqualArea => {
                 let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
                 let inside = 1.0 - (x.abs() + y.abs());
@@ -84,6 +95,10 @@ impl Layout {
             Self::LatitudeLongitude if y < 0 => (x + w / 2, -1 - y),
             Self::LatitudeLongitude if y >= h => (x + w / 2, 2 * h - 1 - y),
             Self::LatitudeLongitude => (x, y),
+            // Beyond them lie those before, half a turn away.
+            Self::PoleToPole(_) if y < 0 => (x + w / 2, -y),
+            Self::PoleToPole(_) if y >= h => (x + w / 2, 2 * h - 2 - y),
+            Self::PoleToPole(_) => (x, y),
             Self::EqualArea => {
                 // Beyond an edge lies that edge, turned about its middle.
                 let (x, y) = if x < 0 || x >= w { (x.clamp(0, w - 1), h - 1 - y) } else { (x, y) };
@@ -113,6 +128,7 @@ impl Layout {
         match self {
             // (1 - cos(pi v)) / 2
             Self::LatitudeLongitude => f64::from(sin(0.5 * PI * v as f32)).powi(2),
+            Self::PoleToPole(rows) => Self::LatitudeLongitude.share_above(from_pole(rows, v)),
             Self::EqualArea => v,
         }
     }
@@ -120,8 +136,13 @@ impl Layout {
     /// Roughly the angle across a texel of a picture of that many rows.
     pub(super) fn texel_angle(self, rows: u32) -> f32 {
         match self {
-            Self::LatitudeLongitude => 1.4 * PI / rows as f32,
+            Self::LatitudeLongitude | Self::PoleToPole(_) => 1.4 * PI / rows as f32,
             Self::EqualArea => 5.0 / rows as f32,
         }
     }
+}
+
+/// The angle from the zenith, in units of pi, of height `v` of a picture whose first and last rows are in the poles.
+fn from_pole(rows: u32, v: f64) -> f64 {
+    ((v * f64::from(rows) - 0.5) / f64::from(rows - 1)).clamp(0.0, 1.0)
 }

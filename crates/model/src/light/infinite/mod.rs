@@ -98,8 +98,8 @@ impl Kind for Infinite {
                 "layout",
                 ParamType::Choice(Layout::WORDS),
                 ParamDefault::Text("auto"),
-                "How the picture lies on the sphere: latitude-longitude with +z at the top and u from +x by +y, or \
-                 pbrt-v4's equal-area octahedral map. Auto takes square pictures for equal-area ones.",
+                "How the picture lies on the sphere: latitude-longitude with +z at the top and u from +x by +y, \
+                 the same with the middles of its first and last rows in the poles (Mitsuba's), or pbrt-v4's equal-area octahedral map. Auto takes square pictures for equal-area ones.",
             ),
             ParamSpec::new(
                 "portal",

@@ -103,7 +103,7 @@ impl Pyramid {
         let layout = picture.layout();
         let [width, height] = picture.size();
         let wanted = match layout {
-            Layout::LatitudeLongitude => height.max(width / 2),
+            Layout::LatitudeLongitude | Layout::PoleToPole(_) => height.max(width / 2),
             Layout::EqualArea => height,
         };
         let rows = wanted.clamp(ROWS[0], ROWS[1]).next_power_of_two();

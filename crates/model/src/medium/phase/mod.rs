@@ -4,6 +4,9 @@
 //! counts by what its own phase function is by that density.
 mod drops;
 mod henyey_greenstein;
+mod rayleigh;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
@@ -27,26 +30,32 @@ pub enum Phase {
     HenyeyGreenstein(HenyeyGreenstein),
     /// As drops of water do: with rainbows.
     Drops(Arc<Drops>),
+    /// As molecules of air do: as much back as on, half as much to the sides.
+    Rayleigh,
 }
 
 impl Phase {
     /// The parameter `phase`.
     pub(super) const WHICH: ParamSpec = ParamSpec::new(
         "phase",
-        ParamType::Choice(&["henyeygreenstein", "waterdrops"]),
+        ParamType::Choice(&["henyeygreenstein", "waterdrops", "rayleigh"]),
         ParamDefault::Text("henyeygreenstein"),
-        "Where particles send light: henyeygreenstein (by \"g\") or waterdrops (as round drops of water do, with rainbows).",
+        "Where particles send light: henyeygreenstein (by \"g\"), waterdrops (as round drops of water do, with rainbows) or \
+         rayleigh (as molecules of air do).",
     );
 
     /// Reads it, and the mean cosine if that is asked for.
     pub(super) fn read(args: &mut Args<'_>) -> Self {
-        if args.text(Self::WHICH.name) == "waterdrops" {
-            if args.is_set(Matter::G.name) {
-                args.warning(Matter::G.name, "\"g\" has no effect beside the phase function \"waterdrops\"");
-            }
-            return Self::Drops(Arc::new(Drops::new()));
+        let phase = match args.text(Self::WHICH.name) {
+            "waterdrops" => Self::Drops(Arc::new(Drops::new())),
+            "rayleigh" => Self::Rayleigh,
+            _ => return Self::HenyeyGreenstein(HenyeyGreenstein::new(args.float(Matter::G.name))),
+        };
+        if args.is_set(Matter::G.name) {
+            let message = format!("\"g\" has no effect beside the phase function \"{}\"", phase.name());
+            args.warning(Matter::G.name, message);
         }
-        Self::HenyeyGreenstein(HenyeyGreenstein::new(args.float(Matter::G.name)))
+        phase
     }
 
     /// What documents call it.
@@ -54,6 +63,7 @@ impl Phase {
         match self {
             Self::HenyeyGreenstein(_) => "henyey-greenstein",
             Self::Drops(_) => "waterdrops",
+            Self::Rayleigh => "rayleigh",
         }
     }
     /// The mean cosine of the deflection, over all wavelengths.
@@ -61,6 +71,7 @@ impl Phase {
         match self {
             Self::HenyeyGreenstein(phase) => phase.g(),
             Self::Drops(drops) => drops.mean_cos(),
+            Self::Rayleigh => 0.0,
         }
     }
     /// Density of going on with this cosine of the deflection.
@@ -68,12 +79,13 @@ impl Phase {
         match self {
             Self::HenyeyGreenstein(phase) => phase.density(cos),
             Self::Drops(drops) => drops.density(cos),
+            Self::Rayleigh => rayleigh::density(cos),
         }
     }
     /// The share of light that goes there by that density: ones where all wavelengths scatter alike.
     pub fn tint(&self, basis: &Basis, cos: f32) -> Spectrum {
         match self {
-            Self::HenyeyGreenstein(_) => Spectrum::ONE,
+            Self::HenyeyGreenstein(_) | Self::Rayleigh => Spectrum::ONE,
             Self::Drops(drops) => drops.tint(basis, cos),
         }
     }
@@ -82,6 +94,7 @@ impl Phase {
         match self {
             Self::HenyeyGreenstein(phase) => phase.deflected(w, u),
             Self::Drops(drops) => turned(w, drops.cos(u.x), u.y),
+            Self::Rayleigh => turned(w, rayleigh::cos(u.x), u.y),
         }
     }
 }

@@ -113,7 +113,8 @@ impl<P: Probe> Follow<'_, P> {
         let cx = self.walk.cx;
         let asked = LightCx { basis: cx.basis, time: ray.ray.time };
         let mut sky = Spectrum::BLACK;
-        for &light in cx.scene.far.iter() {
+        let seen = if self.course.hides(ray) { &[][..] } else { &cx.scene.far[..] };
+        for &light in seen {
             let own = &cx.scene.lights[light as usize];
             let radiance = own.escaped(cx.basis, ray.ray.d);
             sky += match ray.density {

@@ -156,7 +156,10 @@ impl<'a, P: Probe> Follow<'a, P> {
             false => Shading::at(walk.cx, &ray.ray, hit, Some(onlooker)),
         };
         walk.probe.surface(id, s.object, hit, &s.surface);
-        let crossing = walk.cross(&ray.media, &mut s, hit.t);
+        let mut crossing = walk.cross(&ray.media, &mut s, hit.t);
+        if self.course.hides(ray) && walk.cx.scene.object(s.object).light.is_some() {
+            crossing.boundary = Boundary::Passed;
+        }
         let mut arriving = walk.arriving(&ray.media, ray.from, &ray.ray, hit.t);
         if let Some(flight) = flight {
             arriving *= flight.weight;

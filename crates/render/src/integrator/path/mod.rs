@@ -14,7 +14,7 @@ mod sppm;
 use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{Integrator, LIGHT_SAMPLER, PATH_DEPTH, ROULETTE_DEPTH, Start, Transport, walk::Rules};
-use crate::{Contribution, LightSampler, SampleCx, probe::Probe};
+use crate::{Contribution, LightSampler, PathRay, SampleCx, probe::Probe};
 use follow::Follow;
 
 pub use sppm::Sppm;
@@ -33,6 +33,8 @@ struct Course {
     direct_only: bool,
     /// What floats in the air and in bodies counts.
     heeds_media: bool,
+    /// Lamps and the sky are not seen but by what they light.
+    hides_emitters: bool,
 }
 
 impl Course {
@@ -46,12 +48,25 @@ impl Course {
             "Blurs nearly sharp reflections of what is seen after a blurred bounce: less noise, a little wrong.",
         ),
         ROULETTE_DEPTH,
+        Self::HIDE_EMITTERS,
     ];
+    const HIDE_EMITTERS: ParamSpec = ParamSpec::new(
+        "hideemitters",
+        ParamType::Bool,
+        ParamDefault::Bool(false),
+        "Lamps and the sky are not seen directly: eye rays go through lamps as if they were not there, and the sky is black \
+         to them. They light everything, and are seen in mirrors and through glass.",
+    );
 
     /// With the parameters of path tracers.
     fn of_paths(args: &mut Args<'_>) -> Option<Self> {
         let (regularize, roulette_depth) = (args.bool("regularize"), args.int("roulettedepth") as u32);
-        Some(Self { regularize, roulette_depth, ..Self::from_args(args)? })
+        let hides_emitters = args.bool(Self::HIDE_EMITTERS.name);
+        Some(Self { regularize, roulette_depth, hides_emitters, ..Self::from_args(args)? })
+    }
+    /// Whether lamps and the sky are nothing to a ray: those that the eye would see directly.
+    fn hides(&self, ray: &PathRay) -> bool {
+        self.hides_emitters && ray.depth == 0
     }
     fn from_args(args: &mut Args<'_>) -> Option<Self> {
         let rules = Rules { max_depth: args.int("maxdepth") as u32, ..Rules::PATH };
@@ -63,6 +78,7 @@ impl Course {
             roulette_depth: u32::MAX,
             direct_only: false,
             heeds_media: false,
+            hides_emitters: false,
         })
     }
 }
@@ -113,10 +129,12 @@ impl Kind for Direct {
         name: "direct",
         aliases: &["directlighting"],
         doc: "Direct light with multiple importance sampling; mirrors and glass are followed, nothing else is.",
-        params: &[PATH_DEPTH, LIGHT_SAMPLER],
+        params: &[PATH_DEPTH, LIGHT_SAMPLER, Course::HIDE_EMITTERS],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
-        Some(Box::new(Path { course: Course { direct_only: true, ..Course::from_args(args)? } }))
+        let hides_emitters = args.bool(Course::HIDE_EMITTERS.name);
+        let course = Course { direct_only: true, hides_emitters, ..Course::from_args(args)? };
+        Some(Box::new(Path { course }))
     }
 }
 

@@ -51,6 +51,36 @@ pub(super) fn exponential(bytes: &mut [u8]) {
     }
 }
 
+/// Luma and two differences of colours (YCoCg), to normalised red, green and blue of 8 or 16 bits. The highest bit of alpha
+/// says how many bits all of them have; alpha itself has one less.
+pub(super) fn color(bytes: &mut [u8], stride: usize) {
+    if stride == 4 {
+        for [y, co, cg, a] in bytes.as_chunks_mut::<4>().0 {
+            let rgba =
+                mixed([i32::from(*y), i32::from(*co as i8), i32::from(*cg as i8), i32::from(*a)], 255.0);
+            [*y, *co, *cg, *a] = rgba.map(|v| v as u8);
+        }
+        return;
+    }
+    for row in bytes.as_chunks_mut::<8>().0 {
+        let [a, b, c, d, e, f, g, h] = *row;
+        let [y, co, cg, alpha] = [[a, b], [c, d], [e, f], [g, h]].map(i16::from_le_bytes);
+        let unsigned = |v: i16| i32::from(v as u16);
+        let rgba = mixed([unsigned(y), co.into(), cg.into(), unsigned(alpha)], 65535.0);
+        let numbers = rgba.map(|v| (v as u16).to_le_bytes());
+        row.iter_mut().zip(numbers.as_flattened()).for_each(|(to, from)| *to = *from);
+    }
+}
+
+/// Red, green, blue and alpha of which `most` is 1.
+fn mixed([y, co, cg, alpha]: [i32; 4], most: f32) -> [f32; 4] {
+    // All bits up to the highest one.
+    let one = alpha.checked_ilog2().map_or(0, |bit| (2 << bit) - 1);
+    let alpha = ((alpha << 1) & one) | (alpha & 1);
+    let scale = if one > 0 { most / one as f32 } else { 0.0 };
+    [y + co - cg, y + cg, y - co - cg, alpha].map(|v| (v as f32 * scale).round().clamp(0.0, most))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,6 +118,24 @@ mod tests {
                 "{numbers:?} {expected:?}"
             );
         }
+    }
+
+    #[test]
+    fn colours_come_back() {
+        // Packed by meshoptimizer with 8 and 12 bits: (1, 1/2, 1/4, 1) and (0, 3/4, 1, 1/2).
+        let mut bytes = [144u8, 95, 241, 255, 159, 129, 31, 192];
+        color(&mut bytes, 4);
+        assert_eq!(bytes, [254, 129, 64, 255, 1, 190, 255, 128]);
+        let wide = [2304u16, 1535, 65281, 4095, 2559, 63489, 511, 3072];
+        let mut wide: Vec<u8> = wide.iter().flat_map(|v| v.to_le_bytes()).collect();
+        color(&mut wide, 8);
+        let found: Vec<f64> =
+            wide.as_chunks::<2>().0.iter().map(|b| f64::from(u16::from_le_bytes(*b)) / 65535.0).collect();
+        let expected = [1.0, 0.5, 0.25, 1.0, 0.0, 0.75, 1.0, 0.5];
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
+        let mut nothing = [0u8; 4];
+        color(&mut nothing, 4);
+        assert_eq!(nothing, [0; 4]);
     }
 
     #[test]

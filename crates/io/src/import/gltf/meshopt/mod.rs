@@ -81,9 +81,13 @@ impl<'a> Packed<'a> {
                 strides(stride % 4 == 0, "a multiple of 4")?;
                 filter::exponential(&mut unpacked);
             }
+            "COLOR" => {
+                strides([4, 8].contains(stride), "4 or 8")?;
+                filter::color(&mut unpacked, *stride);
+            }
             other => {
                 let message =
-                    format!("expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL, found \"{other}\"");
+                    format!("expected NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR, found \"{other}\"");
                 return Err(element.fault_at("filter", message));
             }
         }
