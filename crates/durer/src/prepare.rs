@@ -13,7 +13,7 @@ use durer_render::{
     compile::{self, CompileOptions},
     drive::{Antialias, Jitter, Job, Passes, Settings},
     film::Tile,
-    integrator::{Integrator, Output, Show},
+    integrator::{Integrator, Output},
 };
 use durer_scene::{Diagnostics, Location, Missing, Node, SceneDesc};
 
