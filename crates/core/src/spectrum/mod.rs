@@ -26,5 +26,5 @@ pub use lanes::Spectrum;
 pub use light_color::LightColor;
 pub use metal::{conductor, conductor_of, curve, extinction};
 pub use named::{Named, named, named_curve, named_light, spectrum_names};
-pub use sampled::{HELIUM_D, HUES, Sampled};
+pub use sampled::{HELIUM_D, HUES, Sampled, share_weights};
 pub use wavelengths::Wavelengths;
