@@ -42,7 +42,7 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="bumpmap"><texture type="bitmap"><string name="filename" value="pixel.png"/></texture><bsdf type="diffuse"/></bsdf>"#,
     r#"<bsdf type="null"/>"#,
     r#"<bsdf type="hair"/>"#,
-    r#"<bsdf type="measured"/>"#,
+    r#"<bsdf type="measured"><string name="filename" value="paint.bsdf"/></bsdf>"#,
     r#"<bsdf type="polarizer"/>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="pixel.png"/><string name="wrap_mode" value="clamp"/></texture></bsdf>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>"#,

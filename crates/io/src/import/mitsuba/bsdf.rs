@@ -82,6 +82,14 @@ const OPAQUE: &[Plugin<Build>] = &[
         build: layered::plastic,
     },
     Plugin {
+        name: "measured",
+        takes: &["filename"],
+        lacks: &[],
+        build: |world, object| {
+            Some(("measured", Params::new().string("filename", &world.path(object, "filename")?)))
+        },
+    },
+    Plugin {
         name: "phong",
         takes: &["diffuse_reflectance", "specular_reflectance", "exponent"],
         lacks: &[],

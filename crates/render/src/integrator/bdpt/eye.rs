@@ -31,9 +31,9 @@ struct Link<Id> {
 pub(super) struct EyeWalk<'a, P: Probe> {
     pub(super) own: &'a Bidirectional,
     pub(super) walk: Walk<'a, P>,
-    pub(super) particle: Option<&'a Particle>,
+    pub(super) particle: Option<&'a Particle<'a>>,
     /// Where the eye's walk scattered so far.
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) vertices: Vec<Vertex<'a>>,
 }
 
 /// What a ray leaves to do: what arrives, and the next ray.
@@ -48,7 +48,7 @@ impl Step {
     }
 }
 
-impl<P: Probe> EyeWalk<'_, P> {
+impl<'a, P: Probe> EyeWalk<'a, P> {
     /// Follows an eye ray; radiance is summed from the far end, as the recorder folds it.
     pub(super) fn trace(&mut self, ray: PathRay, first: P::Id, out: &mut Contribution) {
         let mut links: Vec<Link<P::Id>> = Vec::new();
@@ -102,7 +102,7 @@ impl<P: Probe> EyeWalk<'_, P> {
         self.shade(vertex, left, flight, id)
     }
 
-    fn shade(&mut self, mut vertex: Vertex, left: Spectrum, flight: &mut Flight, id: P::Id) -> Step {
+    fn shade(&mut self, mut vertex: Vertex<'a>, left: Spectrum, flight: &mut Flight, id: P::Id) -> Step {
         let emission = left * self.met(&vertex, id);
         if P::RECORDS {
             let black = Spectrum::BLACK;

@@ -49,8 +49,8 @@ pub(super) enum Flight {
 }
 
 /// A surface at which a walk scatters.
-pub(super) struct Vertex {
-    pub(super) s: Shading,
+pub(super) struct Vertex<'a> {
+    pub(super) s: Shading<'a>,
     pub(super) crossing: Crossing,
     /// What arrives: power of a particle, or the share of an eye ray in the pixel; on this side of the surface.
     pub(super) arriving: Spectrum,
@@ -64,7 +64,7 @@ pub(super) struct Vertex {
     pub(super) path: PathRay,
 }
 
-impl Vertex {
+impl Vertex<'_> {
     /// Density with which a walk that comes from direction `from` goes on along `to`, 1/sr; both point away.
     pub(super) fn pdf(&self, from: Vector3, to: Vector3) -> f32 {
         let (from, to) = (self.s.frame.to_local(from), self.s.frame.to_local(to));
@@ -128,7 +128,7 @@ pub(super) fn towards(from: Point3, to: Point3) -> (Vector3, f32) {
     (d / distance, distance)
 }
 
-impl<P: Probe> Walk<'_, P> {
+impl<'a, P: Probe> Walk<'a, P> {
     /// The surface of a hit, ready to scatter, with what is left along the ray; `None` if it is none and the ray goes on
     /// beyond it.
     pub(super) fn meet(
@@ -136,7 +136,7 @@ impl<P: Probe> Walk<'_, P> {
         ray: &mut PathRay,
         hit: &Hit,
         announce: impl FnOnce(&mut Self, &Shading),
-    ) -> Option<(Shading, Crossing, Spectrum)> {
+    ) -> Option<(Shading<'a>, Crossing, Spectrum)> {
         let mut s = Shading::at(self.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
         announce(self, &s);
         let crossing = self.cross(&ray.media, &mut s, hit.t);

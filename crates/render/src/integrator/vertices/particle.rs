@@ -35,7 +35,7 @@ pub(in super::super) struct Stamina {
 }
 
 /// A particle's way.
-pub(in super::super) struct Particle {
+pub(in super::super) struct Particle<'a> {
     /// Where it began.
     pub(in super::super) end: End,
     /// Density of the place where it began, by area (of far light of its direction), with the chance of the light.
@@ -43,7 +43,7 @@ pub(in super::super) struct Particle {
     /// Density with which a walk from the first vertex comes there.
     pub(in super::super) other: f32,
     /// Where it scattered.
-    pub(in super::super) vertices: Vec<Vertex>,
+    pub(in super::super) vertices: Vec<Vertex<'a>>,
 }
 
 /// A vertex as the camera sees it.
@@ -55,7 +55,7 @@ pub(in super::super) struct Sighting {
     pub(in super::super) splat: Splat,
 }
 
-impl<P: Probe> Walk<'_, P> {
+impl<'a, P: Probe> Walk<'a, P> {
     /// Sends a particle at the moment of an eye ray, by numbers of its sample. `None` if no light sends any, or what was
     /// chosen is black.
     pub(in super::super) fn particle(
@@ -63,7 +63,7 @@ impl<P: Probe> Walk<'_, P> {
         eye: &PathRay,
         stamina: Stamina,
         id: P::Id,
-    ) -> Option<Particle> {
+    ) -> Option<Particle<'a>> {
         let scene = self.cx.scene;
         let sampler = eye.sampler.apart(EMISSION_BRANCH);
         let chosen = scene.choose_emitter(|| sampler.d1(Dim::LightChoice))?;
@@ -114,7 +114,7 @@ impl<P: Probe> Walk<'_, P> {
         mut ray: PathRay,
         (mut flight, mut from): (Flight, Point3),
         stamina: Stamina,
-        particle: &mut Particle,
+        particle: &mut Particle<'a>,
         mut parent: P::Id,
     ) {
         let start = ray.throughput.max();
@@ -228,7 +228,7 @@ impl<P: Probe> Walk<'_, P> {
     }
 }
 
-impl Particle {
+impl Particle<'_> {
     /// Notes with which density a walk comes from a vertex to what is before it, by that of the direction.
     fn came_back(&mut self, from: &Vertex, pdf: f32) {
         let p = from.s.surface.p;
