@@ -6,6 +6,7 @@ use durer::{Imported, Options, scene::Severity, spectrum::Carried};
 use durer_testkit::{
     DVec3,
     measured::{self, Brushed, Grid, Known, azimuths, fields, file},
+    random::Random,
 };
 use durer_tests::{prepared, render};
 
@@ -193,6 +194,40 @@ fn what_is_wrong_with_a_file_is_told() {
         "{:?}",
         missing.diagnostics
     );
+}
+
+#[test]
+fn damaged_files_end_with_a_picture_or_a_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut random = Random::new(52);
+    let text = "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2\nLookAt 0 0 -3 0 0 0 0 1 0\n\
+                Camera \"perspective\" Integrator \"path\" WorldBegin LightSource \"infinite\"\n\
+                Material \"measured\" \"string filename\" \"a.bsdf\"\nShape \"sphere\"\n";
+    let (mut refused, mut seen) = (0, 0);
+    for sound in [measured::paint(), measured::brushed_paint()] {
+        for round in 0..400 {
+            let mut bytes = sound.clone();
+            // Most of the damage to what is told of the fields, where it does most.
+            let end = if round % 2 == 0 { 400 } else { bytes.len() };
+            for _ in 0..=round % 3 {
+                let at = (random.unit() * end as f64) as usize;
+                bytes[at] = (random.unit() * 256.0) as u8;
+            }
+            std::fs::write(folder.path().join("a.bsdf"), bytes).expect("written");
+            let mut imported = opened(folder.path(), "a.pbrt", text);
+            match durer::prepare(&mut imported, &many(2)) {
+                Some(prepared) => {
+                    render(&prepared);
+                    seen += 1;
+                }
+                None => {
+                    assert!(imported.diagnostics.iter().any(|d| d.message.starts_with("a.bsdf: ")));
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(refused > 100 && seen > 100, "{refused} {seen}");
 }
 
 /// What fuzzing begins with is what the formulas say.

@@ -5,7 +5,7 @@ use durer_scene::{Data, MaterialRef, Params, TextureValue, ValueType};
 
 use super::{
     index::relative,
-    layered, metal,
+    layered, measured, metal,
     object::{Object, Value},
     principled, texture,
     world::{Plugin, Role, Shade, World},
@@ -81,14 +81,7 @@ const OPAQUE: &[Plugin<Build>] = &[
         lacks: &["specular_reflectance"],
         build: layered::plastic,
     },
-    Plugin {
-        name: "measured",
-        takes: &["filename"],
-        lacks: &[],
-        build: |world, object| {
-            Some(("measured", Params::new().string("filename", &world.path(object, "filename")?)))
-        },
-    },
+    Plugin { name: "measured", takes: &["filename"], lacks: &[], build: measured::reflecting },
     Plugin {
         name: "phong",
         takes: &["diffuse_reflectance", "specular_reflectance", "exponent"],

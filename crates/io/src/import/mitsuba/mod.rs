@@ -10,6 +10,7 @@ mod emitter;
 mod index;
 mod integrator;
 mod layered;
+mod measured;
 mod medium;
 mod mesh;
 mod metal;

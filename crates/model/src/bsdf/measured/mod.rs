@@ -23,6 +23,9 @@ pub use tables::Measurement;
 
 use super::{Branch, BranchKind, Drawn, Facets, Glossy, Reflectance};
 
+/// Cosines are taken to be at least this: `f` stays finite where light grazes.
+const MIN_COSINE: f32 = 1e-6;
+
 /// A surface of something measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured<'a> {
@@ -134,7 +137,7 @@ impl<'a> Measured<'a> {
             let wi = self.turned(wi, view.signs);
             let (m, ..) = self.half(&view, wi)?;
             let (u, _) = self.of.vndf.invert(&view.seen.0, m);
-            Some(self.of.value(&self.basis, &view.seen, [u, m]) * (self.scale / wi.z))
+            Some(self.of.value(&self.basis, &view.seen, [u, m]) * (self.scale / wi.z.max(MIN_COSINE)))
         };
         value().unwrap_or(Spectrum::BLACK)
     }
@@ -161,7 +164,7 @@ impl<'a> Measured<'a> {
         let cos = view.wo.dot(normal);
         let wi = normal * (2.0 * cos) - view.wo;
         let pdf = light * visible / (4.0 * cos * stretch(m.x, sin_theta));
-        if wi.z <= 0.0 || pdf <= 0.0 {
+        if wi.z <= 0.0 || !(pdf > 0.0 && pdf.is_finite()) {
             return None;
         }
         let weight = self.of.value(&self.basis, &view.seen, [u, m]) * (self.scale / pdf);
