@@ -10,7 +10,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use durer_scene::{AssetError, Assets, Image, Limits, Mesh, Voxels};
+use durer_scene::{AssetError, Assets, Image, Limits, Mesh, Tensors, Voxels};
 
 use crate::gzip;
 
@@ -25,6 +25,7 @@ pub struct FileAssets {
     users: BTreeMap<String, String>,
     images: Cache<Image>,
     meshes: Cache<Mesh>,
+    tensors: Cache<Tensors>,
     listings: Cache<HashMap<String, String>>,
     /// Files that were asked for and found.
     found: Mutex<BTreeSet<PathBuf>>,
@@ -48,6 +49,7 @@ impl FileAssets {
             users: BTreeMap::new(),
             images: Cache::default(),
             meshes: Cache::default(),
+            tensors: Cache::default(),
             listings: Cache::default(),
             found: Mutex::default(),
         }
@@ -78,6 +80,7 @@ impl FileAssets {
         let name = name.into();
         entries(&self.images).remove(&name);
         entries(&self.meshes).remove(&name);
+        entries(&self.tensors).remove(&name);
         self.embedded.insert(name, bytes.into());
     }
     /// The limits that reading keeps to.
@@ -228,6 +231,9 @@ impl Assets for FileAssets {
     }
     fn voxels(&self, path: &str, name: &str) -> Result<Voxels, AssetError> {
         crate::volume::voxels(&self.bytes(path)?, path, name)
+    }
+    fn tensors(&self, path: &str) -> Result<Arc<Tensors>, AssetError> {
+        cached(&self.tensors, path, || crate::tensor::read(self.bytes(path)?, path))
     }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         cached(&self.images, path, || crate::image::read(&self.bytes(path)?, path, self.limits))

@@ -7,6 +7,7 @@ pub mod export;
 mod gzip;
 pub mod image;
 pub mod import;
+mod tensor;
 mod volume;
 
 pub use assets::FileAssets;

@@ -11,27 +11,27 @@ use durer_testkit::{
     random::Random,
 };
 
-fn glossy(f0: f32, alpha: f32) -> Lobe {
+fn glossy(f0: f32, alpha: f32) -> Lobe<'static> {
     let reflectance = Reflectance::Schlick { f0: Spectrum::splat(f0), f90: Spectrum::ONE };
     Lobe::Glossy(Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 })
 }
 
-fn frosted(eta: f32, alpha: f32) -> Lobe {
+fn frosted(eta: f32, alpha: f32) -> Lobe<'static> {
     Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(Facets::round(alpha)) })
 }
 
-fn translucent(reflection: f32, transmission: f32) -> Lobe {
+fn translucent(reflection: f32, transmission: f32) -> Lobe<'static> {
     let split = Split::Constant { reflection: Spectrum::splat(0.3), transmission: Spectrum::splat(0.6) };
     let blur = Blur::Cosine { reflection, transmission };
     Lobe::Blurred(Blurred { interface: Interface { eta: 1.5, split }, blur })
 }
 
-fn gloss(exponent: f32) -> Lobe {
+fn gloss(exponent: f32) -> Lobe<'static> {
     Lobe::Gloss(Gloss { weight: Spectrum::ONE, exponent })
 }
 
 /// Lobes that spread, wide enough for the cells of a histogram.
-fn lobes() -> Vec<Lobe> {
+fn lobes() -> Vec<Lobe<'static>> {
     let mut lobes = vec![gloss(0.0), gloss(1.0), gloss(12.0), gloss(60.0), translucent(5.0, 20.0)];
     lobes.extend([0.15, 0.3, 0.6, 1.0].map(|alpha| glossy(0.3, alpha)));
     lobes.extend([0.2, 0.5, 1.0].map(|alpha| frosted(1.5, alpha)));

@@ -30,7 +30,7 @@ fn both(alphas: &[f64]) -> Vec<Exact> {
 
 /// Every lobe that reflects lights and obeys physics. `Highlight` is left out: the classic formula is neither reciprocal
 /// nor energy conserving (2026-11-22).
-fn physical_lobes() -> Vec<Lobe> {
+fn physical_lobes() -> Vec<Lobe<'static>> {
     let mut lobes = vec![Lobe::Diffuse { albedo: Spectrum::ONE }];
     for exact in both(&[0.001, 0.01, 0.1, 0.25, 0.5, 1.0]) {
         lobes.extend([0.0, 0.04, 1.0].map(|f0| Lobe::Glossy(like(f0, exact))));

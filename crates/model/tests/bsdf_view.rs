@@ -16,12 +16,12 @@ fn grid() -> impl Iterator<Item = Point2> {
     (0..400).map(|i| Point2::new((i % 20) as f32 / 20.0 + 0.01, (i / 20) as f32 / 20.0 + 0.01))
 }
 
-fn glossy(alpha: f32) -> Lobe {
+fn glossy(alpha: f32) -> Lobe<'static> {
     let reflectance = Reflectance::Schlick { f0: Spectrum::ONE * 0.5, f90: Spectrum::ONE };
     Lobe::Glossy(Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 })
 }
 
-fn frosted(eta: f32) -> Lobe {
+fn frosted(eta: f32) -> Lobe<'static> {
     Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(Facets::round(0.9)) })
 }
 

@@ -52,7 +52,8 @@ fn factors_dim_what_coats_and_panes_reflect_and_let_through() {
         ("thindielectric", "transmission", BranchKind::Transmission),
     ] {
         let all = |params| -> Vec<(BranchKind, f32)> {
-            let bsdf = bsdf(&*material(kind, params), wo);
+            let material = material(kind, params);
+            let bsdf = bsdf(&*material, wo);
             branches(&bsdf, wo).iter().map(|b| (b.kind, b.weight.lanes()[0])).collect()
         };
         let (whole, dimmed) = (all(Params::new()), all(Params::new().rgb(name, [0.25; 3])));

@@ -1,7 +1,7 @@
 //! The only door to files: `compile` asks, `durer-io` answers.
 use std::sync::Arc;
 
-use crate::{Mesh, Voxels};
+use crate::{Mesh, Tensors, Voxels};
 
 /// Bounds on what a hostile file may make us allocate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,6 +139,13 @@ pub trait Assets: Sync {
     /// Why it could not be had.
     fn voxels(&self, path: &str, name: &str) -> Result<Voxels, AssetError> {
         let _ = name;
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
+    /// The arrays of numbers in the file at `path`.
+    ///
+    /// # Errors
+    /// Why they could not be had.
+    fn tensors(&self, path: &str) -> Result<Arc<Tensors>, AssetError> {
         Err(AssetError::Missing { path: path.to_owned() })
     }
     /// What to do about `error`: where was looked, and what is there that is called nearly the same.

@@ -14,6 +14,7 @@ mod nearest;
 mod params;
 mod schema;
 mod span;
+mod tensors;
 mod voxels;
 
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
@@ -31,4 +32,5 @@ pub use schema::{
     Schema, TextureNames, find,
 };
 pub use span::{Location, SourceId, Sources, Span};
+pub use tensors::{Tensor, TensorType, Tensors};
 pub use voxels::{BLOCK, VoxelBlocks, Voxels};

@@ -9,6 +9,7 @@ pub mod chi_square;
 pub mod gloss_table;
 pub mod interface;
 pub mod lens;
+pub mod measured;
 pub mod microfacet;
 pub mod quadrature;
 pub mod random;

@@ -46,7 +46,7 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="null"/>"#,
     r#"<bsdf type="hair"/>"#,
     r#"<bsdf type="hair"><rgb name="sigma_a" value="0.2, 0.25, 0.7"/><float name="scale" value="2"/></bsdf>"#,
-    r#"<bsdf type="measured"/>"#,
+    r#"<bsdf type="measured"><string name="filename" value="paint.bsdf"/></bsdf>"#,
     r#"<bsdf type="polarizer"/>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="pixel.png"/><string name="wrap_mode" value="clamp"/></texture></bsdf>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>"#,

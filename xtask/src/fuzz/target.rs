@@ -35,6 +35,7 @@ pub(super) const TARGETS: &[Target] = &[
     binary("draco", &[]),
     binary("vdb", &["vdb"]),
     binary("vol", &["vol"]),
+    binary("bsdf", &["bsdf"]),
     binary("gzip", &["gz"]),
     text("spd", &["spd", "csv"]),
     text("ies", &["ies"]),

@@ -20,6 +20,8 @@ pub(super) struct Memory {
     pub(super) meshes_placed: u64,
     /// Decoded images of textures and lights, a shared one once, and the smaller copies that textures make of them.
     pub(super) textures: u64,
+    /// Tables of measured materials, those of a file once.
+    pub(super) measured: u64,
     /// What a render will sum into.
     pub(super) film: u64,
     /// Most that the process held at a time so far; `None` where the system does not tell.
@@ -41,6 +43,7 @@ impl Memory {
             meshes: report.geometry.mesh_bytes,
             meshes_placed: report.placed_mesh_bytes,
             textures: textures + report.texture_bytes,
+            measured: report.measured_bytes,
             film: pixels * size_of::<Pixel>() as u64 * films,
             peak: peak(),
         }

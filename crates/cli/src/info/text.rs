@@ -297,6 +297,7 @@ fn memory(m: &Memory) -> Vec<String> {
     };
     line(m.meshes + m.meshes_placed, "scene geometry", String::new());
     line(m.textures, "textures", String::new());
+    line(m.measured, "measured materials", String::new());
     let [kept, building] = [m.hierarchy_expected, m.hierarchy_building].map(bytes);
     let estimated = format!("  (estimated: {kept}, while it is built: {building})");
     line(m.hierarchy, "acceleration structure", estimated);

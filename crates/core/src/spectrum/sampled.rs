@@ -86,6 +86,27 @@ impl Sampled {
     }
 }
 
+/// What each of the values at these wavelengths in nm, which rise, adds to the colour of a share of light, under D65: between
+/// them are straight lines, outside is the first or last one. The sums may be below 0, where Rec. 709 does not hold the colour.
+pub fn share_weights(wavelengths: &[f32]) -> Vec<[f32; 3]> {
+    let mut weights = vec![[0.0f64; 3]; wavelengths.len()];
+    let Some(last) = wavelengths.len().checked_sub(1) else { return Vec::new() };
+    for (i, (matching, light)) in MATCHING.iter().zip(DAYLIGHT).enumerate() {
+        let nm = (RANGE.0 + i as i32) as f32;
+        let high = wavelengths.partition_point(|w| *w <= nm).min(last);
+        let low = high.saturating_sub(1);
+        let u = match high > low {
+            true => ((nm - wavelengths[low]) / (wavelengths[high] - wavelengths[low])).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        for (at, share) in [(low, 1.0 - u), (high, u)] {
+            let factor = f64::from(share * light);
+            weights[at].iter_mut().zip(matching).for_each(|(sum, m)| *sum += f64::from(*m) * factor);
+        }
+    }
+    weights.into_iter().map(|sums| sums.map(|v| v as f32)).collect()
+}
+
 /// The colour of a share of light, given by wavelength in nm, under D65.
 pub(super) fn share_of(value: impl Fn(f64) -> f64) -> Color {
     let mut sum = [0.0; 3];
@@ -127,6 +148,20 @@ mod tests {
         assert_eq!([400.0, 450.0, 600.0, 700.0].map(|l| s.inside(l)), [1.0, 2.0, 2.5, 2.0].map(Some));
         assert_eq!([399.0, 701.0].map(|l| s.inside(l)), [None; 2]);
         assert_eq!([300.0, 600.0, 800.0].map(|l| s.nearest(l)), [1.0, 2.5, 2.0]);
+    }
+
+    #[test]
+    fn weights_of_wavelengths_add_up_to_the_colour() {
+        let (wavelengths, values) = ([350.0, 480.0, 560.0, 600.0, 900.0], [0.2, 0.1, 0.7, 0.9, 0.5]);
+        let pairs: Vec<f32> = wavelengths.iter().zip(values).flat_map(|(w, v)| [*w, v]).collect();
+        let mut sum = [0.0; 3];
+        for (weights, value) in share_weights(&wavelengths).iter().zip(values) {
+            sum.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight * value);
+        }
+        near(Sampled::new(&pairs).expect("a spectrum").share(), sum, 1e-4);
+        // One alone stands for all.
+        near(Color { rgb: share_weights(&[500.0])[0] }, [1.0; 3], 1e-4);
+        assert!(share_weights(&[]).is_empty());
     }
 
     #[test]

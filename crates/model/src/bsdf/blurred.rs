@@ -44,7 +44,7 @@ pub struct Blurred {
     pub blur: Blur,
 }
 
-impl Lobe {
+impl Lobe<'_> {
     /// A boundary between two media whose facets are these.
     pub fn boundary(interface: Interface, facets: Facets) -> Self {
         match facets.is_smooth() {

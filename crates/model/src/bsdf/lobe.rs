@@ -8,12 +8,12 @@ use durer_core::{
 
 use super::{
     Blurred, BranchKind, Branches, Draws, Gloss, Glossy, GlossyView, Hair, Highlight, Interface, Layered,
-    Matte, Phong, Sheet, Tilted, Varnish,
+    Matte, Measured, Phong, Sheet, Tilted, Varnish,
 };
 
 /// One way in which a surface scatters light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lobe {
+pub enum Lobe<'a> {
     /// Lambert: `f = albedo / pi`, on both sides.
     Diffuse {
         /// Share of light reflected, in `[0, 1]`.
@@ -58,6 +58,8 @@ pub enum Lobe {
     Sheet(Sheet),
     /// A strand of hair, around which light is scattered.
     Hair(Hair),
+    /// Reflection as it was measured.
+    Measured(Measured<'a>),
     /// Light goes straight on: partial coverage, or transmission through something thin.
     PassThrough {
         /// Share of light that passes.
@@ -73,7 +75,7 @@ pub(super) fn mirrored(wo: Vector3) -> Vector3 {
     Vector3::new(-wo.x, -wo.y, wo.z)
 }
 
-impl Lobe {
+impl Lobe<'_> {
     /// Value without the cosine, 1/sr; black for lobes that are perfectly sharp.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {
         match self {
@@ -90,6 +92,7 @@ impl Lobe {
             Self::Tilted(tilted) => tilted.eval(wo, wi),
             Self::Sheet(sheet) => sheet.eval(wo, wi),
             Self::Hair(hair) => hair.eval(wo, wi),
+            Self::Measured(measured) => measured.eval(wo, wi),
             Self::Diffuse { .. }
             | Self::Behind { .. }
             | Self::Ambient { .. }
@@ -106,7 +109,7 @@ impl Lobe {
             | Self::Matte(_)
             | Self::Hair(_)
             | Self::Behind { .. } => {}
-            Self::Glossy(_) | Self::Phong(_) | Self::Varnish(_) | Self::Layered(_) => {
+            Self::Glossy(_) | Self::Phong(_) | Self::Varnish(_) | Self::Layered(_) | Self::Measured(_) => {
                 let weight = self.look().map_or(Spectrum::BLACK, |glossy| glossy.branch_weight(wo));
                 branches.add(BranchKind::Reflection, mirrored(wo), weight)
             }
@@ -126,7 +129,12 @@ impl Lobe {
     /// Adds the directions that are perfectly sharp; see [`super::Bsdf::sharp`].
     pub(super) fn add_sharp_branches(&self, wo: Vector3, branches: &mut Branches) {
         match self {
-            Self::Gloss(_) | Self::Phong(_) | Self::Varnish(_) | Self::Layered(_) | Self::Sheet(_) => {}
+            Self::Gloss(_)
+            | Self::Phong(_)
+            | Self::Varnish(_)
+            | Self::Layered(_)
+            | Self::Sheet(_)
+            | Self::Measured(_) => {}
             Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) if glossy.spreads() => {}
             Self::Blurred(blurred) => blurred.add_sharp_branches(wo, branches),
             _ => self.add_branches(wo, branches),
@@ -148,7 +156,8 @@ impl Lobe {
             | Self::Phong(_)
             | Self::Varnish(_)
             | Self::Layered(_)
-            | Self::Sheet(_) => true,
+            | Self::Sheet(_)
+            | Self::Measured(_) => true,
         }
     }
     /// Whether directions can be drawn from it.
@@ -159,7 +168,8 @@ impl Lobe {
             | Self::Phong(_)
             | Self::Varnish(_)
             | Self::Layered(_)
-            | Self::Sheet(_) => true,
+            | Self::Sheet(_)
+            | Self::Measured(_) => true,
             Self::Glossy(glossy) | Self::Tilted(Tilted { glossy, .. }) => glossy.spreads(),
             Self::Mirror { .. } | Self::Interface(_) | Self::PassThrough { .. } => false,
             _ => self.is_followed(),
@@ -178,6 +188,7 @@ impl Lobe {
             Self::Phong(phong) => phong.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
             Self::Varnish(varnish) => varnish.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
             Self::Sheet(sheet) => sheet.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
+            Self::Measured(lobe) => lobe.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn)),
             Self::Tilted(tilted) if tilted.glossy.spreads() => {
                 tilted.draw(wo, u).into_iter().for_each(|drawn| draws.add(drawn));
             }
@@ -202,6 +213,7 @@ impl Lobe {
             Self::Layered(layered) => Some(layered.pdf(wo, wi)),
             Self::Tilted(tilted) if tilted.glossy.spreads() => Some(tilted.pdf(wo, wi)),
             Self::Sheet(sheet) => Some(sheet.pdf(wo, wi)),
+            Self::Measured(measured) => Some(measured.pdf(wo, wi)),
             _ => None,
         }
     }
@@ -224,6 +236,7 @@ impl Lobe {
             Self::Varnish(varnish) => Some(varnish.look()),
             Self::Layered(layered) => layered.look(),
             Self::Tilted(tilted) => Some(tilted.glossy),
+            Self::Measured(measured) => Some(measured.look()),
             _ => None,
         }
     }
@@ -252,6 +265,7 @@ impl Lobe {
             }
             Self::Tilted(tilted) => tilted.glossy.reflectance.ends().0 * tilted.glossy.scale,
             Self::Hair(hair) => hair.tint(),
+            Self::Measured(measured) => measured.tint(),
             Self::Sheet(sheet) => sheet.glossy().reflectance.ends().0 * sheet.glossy().scale,
             Self::Blurred(blurred) => blurred.interface.tint(),
             Self::Interface(interface) => interface.tint(),
@@ -279,6 +293,7 @@ impl Lobe {
             }
             Self::Sheet(sheet) => Self::Sheet(sheet.scaled(by)),
             Self::Hair(hair) => Self::Hair(hair.scaled(by)),
+            Self::Measured(measured) => Self::Measured(measured.scaled(by)),
             Self::PassThrough { weight } => Self::PassThrough { weight: weight * by },
         }
     }

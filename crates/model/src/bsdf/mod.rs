@@ -26,6 +26,7 @@ mod layered;
 mod leaving;
 mod lobe;
 mod matte;
+mod measured;
 mod phong;
 mod refract;
 mod scatter;
@@ -61,6 +62,7 @@ pub use layered::{Below, Cloud, Layered, mirrored_by_layers};
 pub use leaving::Leaving;
 pub use lobe::Lobe;
 pub use matte::Matte;
+pub use measured::{Measured, Measurement};
 pub use phong::Phong;
 pub use refract::{reflect, refract};
 pub use scatter::Scattered;
@@ -87,34 +89,34 @@ pub enum Seen {
 
 /// The lobes at one point.
 #[derive(Clone, Copy, Debug)]
-pub struct Bsdf {
-    lobes: [Option<Lobe>; Bsdf::MOST_LOBES],
+pub struct Bsdf<'a> {
+    lobes: [Option<Lobe<'a>>; Bsdf::MOST_LOBES],
     count: usize,
     /// What of all scattered light arrives at the end of `wo`.
     arriving: Spectrum,
     is_led: bool,
 }
 
-impl Default for Bsdf {
+impl Default for Bsdf<'_> {
     fn default() -> Self {
         Self { lobes: [None; Self::MOST_LOBES], count: 0, arriving: Spectrum::ONE, is_led: false }
     }
 }
 
-impl Bsdf {
+impl<'a> Bsdf<'a> {
     /// Most lobes a material can return.
     pub const MOST_LOBES: usize = 8;
 
     /// These lobes and `lobe`; a lobe too many is an error of the material: it is left out, and debug builds stop.
     #[must_use]
     #[inline]
-    pub fn with(mut self, lobe: Lobe) -> Self {
+    pub fn with(mut self, lobe: Lobe<'a>) -> Self {
         self.add(lobe);
         self
     }
     /// Adds a lobe, like [`Bsdf::with`].
     #[inline]
-    pub fn add(&mut self, lobe: Lobe) {
+    pub fn add(&mut self, lobe: Lobe<'a>) {
         debug_assert!(
             self.count < Self::MOST_LOBES,
             "a material returns more than {} lobes",
@@ -141,7 +143,7 @@ impl Bsdf {
         self.lobes().filter(|lobe| wanted(lobe)).fold(none, |bsdf, lobe| bsdf.with(*lobe))
     }
     /// The lobes, in the order they were added.
-    pub fn lobes(&self) -> impl Iterator<Item = &Lobe> {
+    pub fn lobes(&self) -> impl Iterator<Item = &Lobe<'a>> {
         self.lobes[..self.count].iter().flatten()
     }
     /// The same lobes, which hold for the leading wavelength only.
@@ -227,6 +229,7 @@ impl Bsdf {
                     | Lobe::Tilted(_)
                     | Lobe::Sheet(_)
                     | Lobe::Hair(_)
+                    | Lobe::Measured(_)
             )
         })
     }
@@ -241,6 +244,7 @@ impl Bsdf {
             Lobe::Layered(layered) => layered.look().is_none_or(|look| is_rough(look.facets.alpha())),
             Lobe::Glossy(glossy) | Lobe::Tilted(Tilted { glossy, .. }) => is_rough(glossy.facets.alpha()),
             Lobe::Sheet(sheet) => is_rough(sheet.glossy().facets.alpha()),
+            Lobe::Measured(measured) => is_rough(measured.alpha()),
             Lobe::Varnish(varnish) => is_rough(varnish.alpha),
             Lobe::Gloss(Gloss { exponent, .. }) | Lobe::Phong(Phong { exponent, .. }) => is_wide(*exponent),
             Lobe::Blurred(Blurred { blur: Blur::Microfacet(facets), .. }) => is_rough(facets.alpha()),

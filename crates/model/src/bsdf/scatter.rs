@@ -80,7 +80,7 @@ fn on_side(wo: Vector3, wi: Vector3) -> BranchKind {
     if wo.z * wi.z > 0.0 { BranchKind::Reflection } else { BranchKind::Transmission }
 }
 
-impl Bsdf {
+impl Bsdf<'_> {
     /// A direction to go on in; `choice` in `[0, 1)` chooses among lobes, `u` within one. `None` if what is chosen keeps
     /// all light.
     pub fn scatter(&self, wo: Vector3, choice: f32, u: Point2) -> Option<Scattered> {
@@ -187,7 +187,7 @@ impl Bsdf {
             return Some((0, 1.0, choice));
         }
         let shows = self.shows_lights();
-        let strengths: [f32; Self::MOST_LOBES] =
+        let strengths: [f32; Bsdf::MOST_LOBES] =
             std::array::from_fn(|i| self.lobes[i].as_ref().map_or(0.0, |lobe| lobe.strength(wo, shows)));
         let total: f32 = strengths.iter().sum();
         let mut left = choice * total;
@@ -205,7 +205,7 @@ impl Bsdf {
     }
 }
 
-impl Lobe {
+impl Lobe<'_> {
     /// What share of light it sends towards `wo`, more or less; 0 if no path shall follow it. `shows`: some lobe shows
     /// lights, so that no highlight has to stand for them.
     fn strength(&self, wo: Vector3, shows: bool) -> f32 {
@@ -222,6 +222,7 @@ impl Lobe {
             Self::Tilted(tilted) => tilted.directional_albedo(wo).mean() * tilted.glossy.scale,
             Self::Sheet(sheet) => sheet.passed(wo).mean(),
             Self::Hair(hair) => hair.strength(wo),
+            Self::Measured(measured) => measured.strength(wo),
             Self::Mirror { weight } | Self::PassThrough { weight } => weight.mean(),
             Self::Gloss(gloss) => gloss.weight.mean(),
             Self::Interface(interface) => interface.strength(wo),
@@ -271,6 +272,7 @@ impl Lobe {
             Self::Glossy(glossy) if glossy.spreads() => glossy.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Sheet(sheet) => sheet.draw(wo, u).as_ref().map(OfLobe::drawn),
+            Self::Measured(measured) => measured.draw(wo, u).as_ref().map(OfLobe::drawn),
             Self::Hair(hair) => {
                 let wi = hair.draw(wo, choice, u);
                 let pdf = hair.pdf(wo, wi);
@@ -323,6 +325,7 @@ impl Lobe {
             Self::Tilted(tilted) if tilted.glossy.spreads() => tilted.pdf(wo, wi),
             Self::Sheet(sheet) => sheet.pdf(wo, wi),
             Self::Hair(hair) => hair.pdf(wo, wi),
+            Self::Measured(measured) => measured.pdf(wo, wi),
             Self::Blurred(blurred) => blurred.density(wo, wi),
             Self::Diffuse { .. }
             | Self::Matte(_)

@@ -19,7 +19,7 @@ pub enum Straight {
     Clear,
 }
 
-impl Bsdf {
+impl Bsdf<'_> {
     /// What of the light that goes straight on leaves along `wo`, what is lost on the way along it included.
     pub fn passed(&self, wo: Vector3) -> Spectrum {
         self.arriving * self.straight(wo, Straight::Clear)
@@ -31,7 +31,7 @@ impl Bsdf {
     }
 }
 
-impl Lobe {
+impl Lobe<'_> {
     fn straight(&self, wo: Vector3, how: Straight) -> Spectrum {
         match self {
             Self::Interface(_) | Self::Blurred(_) | Self::Sheet(_) if how == Straight::Clear => {
@@ -53,6 +53,7 @@ impl Lobe {
             | Self::Layered(_)
             | Self::Tilted(_)
             | Self::Hair(_)
+            | Self::Measured(_)
             | Self::Mirror { .. } => Spectrum::BLACK,
         }
     }

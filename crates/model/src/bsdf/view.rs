@@ -42,7 +42,7 @@ pub struct FresnelView {
     pub eta: f32,
 }
 
-impl Lobe {
+impl Lobe<'_> {
     /// What it is called in exports.
     pub fn name(&self) -> &'static str {
         match self {
@@ -63,6 +63,7 @@ impl Lobe {
             Self::Tilted(_) => "tilted",
             Self::Sheet(_) => "sheet",
             Self::Hair(_) => "hair",
+            Self::Measured(_) => "measured",
             Self::PassThrough { .. } => "clear",
         }
     }
@@ -101,7 +102,7 @@ impl Lobe {
             Self::Behind { albedo } => LobeView { transmittance: *albedo, ..none },
             Self::Hair(hair) => LobeView { reflectance: hair.tint(), ..none },
             Self::Phong(p) => LobeView { reflectance: p.specular, exponent: Some(p.exponent), ..none },
-            Self::Layered(_) | Self::Tilted(_) | Self::Varnish(_) => LobeView {
+            Self::Layered(_) | Self::Tilted(_) | Self::Varnish(_) | Self::Measured(_) => LobeView {
                 reflectance: self.tint(),
                 alpha: self.look().map(|glossy| glossy.facets.alpha()),
                 ..none
@@ -117,7 +118,7 @@ impl Lobe {
     }
 }
 
-impl Bsdf {
+impl Bsdf<'_> {
     /// What the interface among the lobes does with light that leaves along `wo`; `None` if there is none.
     pub fn fresnel(&self, wo: Vector3) -> Option<FresnelView> {
         self.lobes().find_map(|lobe| match lobe {
@@ -152,9 +153,9 @@ impl Bsdf {
         wo: Vector3,
         u: impl Fn(u32) -> Point2,
         number: usize,
-    ) -> Option<(u32, &Lobe)> {
+    ) -> Option<(u32, &Lobe<'_>)> {
         let mut count = 0;
-        let is_it = |(index, lobe): &(u32, &Lobe)| {
+        let is_it = |(index, lobe): &(u32, &Lobe<'_>)| {
             let mut own = Draws::default();
             lobe.draw(wo, u(*index), &mut own);
             count += own.iter().count();

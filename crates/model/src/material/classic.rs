@@ -116,7 +116,7 @@ impl Classic {
 }
 
 impl Material for Classic {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf<'_> {
         let at = surface.texture_at();
         let mut bsdf = Bsdf::default();
         bsdf.add(Lobe::Diffuse { albedo: share(cx, &self.diffuse, &at) });

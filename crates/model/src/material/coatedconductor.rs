@@ -72,7 +72,7 @@ impl Kind for CoatedConductor {
 }
 
 impl Material for CoatedConductor {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let metal = self.metal.at(cx, &surface.texture_at());
         let (coat, below) =

@@ -87,7 +87,7 @@ impl Layers {
         self.dispersion.as_ref().map_or(self.eta_d, |curve| basis.leading(curve, self.eta_d))
     }
     /// The lobes, of the leading wavelength if the index depends on it.
-    pub(super) fn led(&self, cx: &ShadeCx<'_>, bsdf: Bsdf) -> Bsdf {
+    pub(super) fn led(&self, cx: &ShadeCx<'_>, bsdf: Bsdf<'static>) -> Bsdf<'static> {
         if self.dispersion.is_some() && cx.basis != Basis::Rgb { bsdf.led() } else { bsdf }
     }
 
@@ -175,7 +175,7 @@ impl Kind for CoatedDiffuse {
 }
 
 impl Material for CoatedDiffuse {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let albedo = share(cx, &self.reflectance, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);

@@ -160,7 +160,7 @@ impl Kind for Conductor {
 }
 
 /// The lobe of facets that reflect so; a mirror where they are smooth.
-pub(super) fn reflecting(reflectance: Reflectance, facets: Facets, cos: f32) -> Lobe {
+pub(super) fn reflecting(reflectance: Reflectance, facets: Facets, cos: f32) -> Lobe<'static> {
     match facets.is_smooth() {
         true => Lobe::Mirror { weight: reflectance.at(cos) },
         false => Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 }),
@@ -168,7 +168,7 @@ pub(super) fn reflecting(reflectance: Reflectance, facets: Facets, cos: f32) -> 
 }
 
 impl Material for Conductor {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let reflectance = self.metal.at(cx, &surface.texture_at());
         let facets = self.roughness.facets(cx, surface);

@@ -57,7 +57,7 @@ impl Kind for Dielectric {
 }
 
 impl Material for Dielectric {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let mut interface = Interface::clear(self.medium.eta(&cx.basis));
         if self.factors.iter().any(Option::is_some) {

@@ -44,7 +44,7 @@ impl Kind for DiffuseTransmission {
 }
 
 impl Material for DiffuseTransmission {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let at = surface.texture_at();
         let scaled = |input: &ColorInput| (share(cx, input, &at) * self.scale).map(|v| v.min(1.0));

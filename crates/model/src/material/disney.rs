@@ -165,7 +165,7 @@ impl Disney {
         self.numbers[3] != FloatInput::Constant(0.0)
     }
     /// The body and its sheen, and how much of each is there.
-    fn body(at: &At, (body, sheen): (f32, f32)) -> Lobe {
+    fn body(at: &At, (body, sheen): (f32, f32)) -> Lobe<'static> {
         let sheen = at.hue.map(|hue| lerp(at.sheen_tint, 1.0, hue)) * (at.sheen * sheen);
         let (roughness, flatness) = (at.roughness, at.flatness);
         Lobe::Matte(Matte::Burley(Burley { color: at.base * body, sheen, roughness, flatness }))
@@ -183,7 +183,7 @@ impl Disney {
             bsdf.add(Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 }));
         }
     }
-    fn sheet(&self, at: &At, along: Vector3) -> Bsdf {
+    fn sheet(&self, at: &At, along: Vector3) -> Bsdf<'_> {
         let mut bsdf = Bsdf::default();
         let body = 1.0 - at.clear;
         if body > 0.0 {
@@ -202,7 +202,7 @@ impl Disney {
         }
         bsdf
     }
-    fn solid(&self, at: &At, along: Vector3, is_outside: bool) -> Bsdf {
+    fn solid(&self, at: &At, along: Vector3, is_outside: bool) -> Bsdf<'_> {
         let facets = facets(at.roughness, at.anisotropic, along);
         let dielectric = 1.0 - at.metallic;
         let clear = dielectric * at.clear;
@@ -231,7 +231,7 @@ impl Disney {
 }
 
 impl Material for Disney {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let (at, along) = (self.at(cx, surface), tangent(surface));
         if self.thin {

@@ -19,7 +19,7 @@ use crate::{
 pub struct ForceDiffuse(pub Box<dyn Material>);
 
 impl Material for ForceDiffuse {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         let own = self.0.bsdf(cx, surface, wo);
         // What is not there stays so; panes that light passes straight are there.
         let holes = self.has_holes();

@@ -124,7 +124,7 @@ impl Kind for Hair {
 }
 
 impl Material for Hair {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf<'_> {
         let at = surface.texture_at();
         let beta = self.beta.map(|input| cx.float(input, &at));
         let sigma_a = self.tinge.at(cx, &at, beta[1]);

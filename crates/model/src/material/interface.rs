@@ -23,7 +23,7 @@ impl Kind for Interface {
 }
 
 impl Material for Interface {
-    fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf {
+    fn bsdf(&self, _cx: &ShadeCx<'_>, _surface: &mut Surface, _wo: Vector3) -> Bsdf<'_> {
         Bsdf::default()
     }
     fn is_nothing(&self) -> bool {

@@ -41,7 +41,7 @@ impl Kind for Mirror {
 }
 
 impl Material for Mirror {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf<'_> {
         let at = surface.texture_at();
         let weight = share(cx, &self.reflectance, &at);
         let facets = self.roughness.facets(cx, surface);

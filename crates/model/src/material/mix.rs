@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// What is asked of a material at a place.
-type Asked<'a> = &'a dyn Fn(&dyn Material, &mut Surface) -> Bsdf;
+type Asked<'f> = &'f dyn for<'a> Fn(&'a dyn Material, &mut Surface) -> Bsdf<'a>;
 
 /// Two materials in one place.
 #[derive(Debug)]
@@ -70,14 +70,14 @@ impl Mix {
         }
     }
     /// The lobes of one of them; of a hole, that light goes on.
-    fn one(&self, which: usize, cx: &ShadeCx<'_>, surface: &mut Surface, of: Asked<'_>) -> Bsdf {
+    fn one(&self, which: usize, cx: &ShadeCx<'_>, surface: &mut Surface, of: Asked<'_>) -> Bsdf<'_> {
         let material = &self.materials[which];
         match material.has_holes() && material.is_hole(cx, &surface.texture_at()) {
             true => Bsdf::default().with(Lobe::PassThrough { weight: Spectrum::ONE }),
             false => of(&**material, surface),
         }
     }
-    fn both(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, of: Asked<'_>) -> Bsdf {
+    fn both(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, of: Asked<'_>) -> Bsdf<'_> {
         let t = self.share(cx, &surface.texture_at());
         if t == 0.0 || t == 1.0 {
             return self.one(usize::from(t == 1.0), cx, surface, of);
@@ -103,10 +103,10 @@ impl Mix {
 }
 
 impl Material for Mix {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.both(cx, surface, wo, &|material, surface| material.bsdf(cx, surface, wo))
     }
-    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.both(cx, surface, wo, &|material, surface| material.open_bsdf(cx, surface, wo))
     }
     fn is_walked(&self) -> bool {

@@ -15,6 +15,7 @@ mod forcediffuse;
 mod hair;
 mod interface;
 mod mask;
+mod measured;
 mod mirror;
 mod mix;
 mod normal_map;
@@ -27,7 +28,7 @@ mod sides;
 mod subsurface;
 mod thindielectric;
 
-use std::fmt::Debug;
+use std::{fmt::Debug, sync::Arc};
 
 use durer_core::{math::Vector3, spectrum::Spectrum};
 use durer_scene::{Args, ColorInput, Entry, ParamDefault, ParamSpec, ParamType};
@@ -45,6 +46,7 @@ pub use self::{
     hair::Hair,
     interface::Interface,
     mask::Mask,
+    measured::Measured,
     mirror::Mirror,
     mix::Mix,
     phong::Phong,
@@ -54,15 +56,20 @@ pub use self::{
     subsurface::Subsurface,
     thindielectric::ThinDielectric,
 };
-use crate::{Medium, ShadeCx, Surface, bsdf::Bsdf, medium::Inside, texture::TextureAt};
+use crate::{
+    Medium, ShadeCx, Surface,
+    bsdf::{Bsdf, Measurement},
+    medium::Inside,
+    texture::TextureAt,
+};
 
 /// A material.
 pub trait Material: Debug + Send + Sync {
     /// Evaluates the textures at `surface` and returns the lobes by value. May tilt `surface.n_s` (normal maps).
     /// `wo` is the unit direction back along the ray.
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf;
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_>;
     /// The same for those who follow light below the surface, where it walks.
-    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.bsdf(cx, surface, wo)
     }
     /// True if light walks below the surface.
@@ -83,6 +90,10 @@ pub trait Material: Debug + Send + Sync {
     fn sent(&self, cx: &ShadeCx<'_>, arriving: &Arriving) -> Sent {
         let _ = (cx, arriving);
         Sent::UNBOUNDED
+    }
+    /// What was measured of it; several materials may share it.
+    fn measurement(&self) -> Option<&Arc<Measurement>> {
+        None
     }
     /// What fills the body behind the surface, if light can get in.
     fn medium(&self) -> Option<Medium> {
@@ -135,10 +146,8 @@ pub const MATERIALS: &[Entry<Box<dyn Material>>] = &[
     Entry::of::<Mix>(),
     Entry::of::<Mask>(),
     Entry::of::<Sides>(),
+    Entry::of::<Measured>(),
 ];
-
-/// Words of pbrt-v4 that are known but not built yet, and the registered kind that is nearest.
-pub const NOT_YET: &[(&str, &str)] = &[("measured", "diffuse")];
 
 /// The parameter `name`, a reflectance or transmittance; warns if a constant exceeds 1. (No range in the schema says so,
 /// because it would be applied to the wavelengths of a spectrum.)

@@ -57,7 +57,7 @@ impl Kind for Phong {
 }
 
 impl Material for Phong {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let at = surface.texture_at();
         let albedo = share(cx, &self.diffuse, &at);

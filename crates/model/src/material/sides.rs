@@ -51,7 +51,7 @@ impl Sides {
 }
 
 impl Material for Sides {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         let is_front = surface.n_s.dot(wo) > 0.0;
         let side = if is_front { Some(&self.front) } else { self.back.as_ref() };
         side.map_or_else(Bsdf::default, |material| material.bsdf(cx, surface, wo))

@@ -195,7 +195,7 @@ impl Subsurface {
 }
 
 impl Material for Subsurface {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let albedo = self.below(cx, &surface.texture_at()).albedo();
         let facets = self.roughness.facets(cx, surface);
@@ -210,7 +210,7 @@ impl Material for Subsurface {
             ))))
             .with(reflecting(Reflectance::dielectric(eta), facets, cos))
     }
-    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let interface = Interface::clear(self.medium.eta(&cx.basis));
         Bsdf::default().with(Lobe::boundary(interface, self.roughness.facets(cx, surface)))

@@ -52,7 +52,7 @@ impl Kind for ThinDielectric {
 }
 
 impl Material for ThinDielectric {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.detail.tilt(cx, surface, wo);
         let cos = surface.n_s.dot(wo).abs().min(1.0);
         let reflected = |eta: f32| {

@@ -7,6 +7,8 @@ use durer_model::bsdf::{
     Strand, Tilted, Under, Varnish, Veil,
 };
 
+use super::measured;
+
 /// Grey of a value.
 fn grey(v: f32) -> Spectrum {
     Spectrum::splat(v)
@@ -18,7 +20,7 @@ pub(super) fn brushed(x: f32, y: f32) -> Facets {
 }
 
 /// Rough reflection that loses nothing but what bounces twice.
-pub(super) fn glossy(facets: Facets) -> Lobe {
+pub(super) fn glossy(facets: Facets) -> Lobe<'static> {
     let reflectance = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
     Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
 }
@@ -34,40 +36,45 @@ fn apart(facets: Facets) -> Facets {
 }
 
 /// What a coat of glass reflects, dimmed.
-fn tinted(facets: Facets) -> Lobe {
+fn tinted(facets: Facets) -> Lobe<'static> {
     let reflectance = Reflectance::Tinted { eta: 1.5, tint: grey(0.4) };
     Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
 }
 
 /// Rough metal.
-pub(super) fn metal(facets: Facets) -> Lobe {
+pub(super) fn metal(facets: Facets) -> Lobe<'static> {
     let reflectance = Reflectance::Index { eta: grey(0.2), k: grey(3.0) };
     Lobe::Glossy(Glossy { reflectance, facets, scale: 1.0 })
 }
 
 /// Frosted glass.
-pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe {
+pub(super) fn frosted(eta: f32, facets: Facets) -> Lobe<'static> {
     Lobe::Blurred(Blurred { interface: Interface::clear(eta), blur: Blur::Microfacet(facets) })
 }
 
 /// A matte body of this albedo below a coat of this roughness, walks of `bounces`.
-pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe {
+pub(super) fn coated(albedo: f32, alpha: f32, bounces: u32) -> Lobe<'static> {
     coated_as(albedo, alpha, bounces, Again::Colored)
 }
 
 /// The same whose body is something else to light that comes back.
-fn coated_as(albedo: f32, alpha: f32, bounces: u32, again: Again) -> Lobe {
+fn coated_as(albedo: f32, alpha: f32, bounces: u32, again: Again) -> Lobe<'static> {
     let coat = Coat::new((1.5, None), 0.01, (Some(alpha), Facets::round(alpha)));
     Lobe::Matte(Matte::Coated(coat.body((grey(albedo), again), (1.5, &Facets::round(alpha)), bounces, 1.0)))
 }
 
 /// Metal below a coat.
-pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe {
+pub(super) fn layered(coat: Facets, metal: Facets) -> Lobe<'static> {
     clouded((coat, 0.01), Cloud::NONE, Below::Metal { eta: grey(0.2), k: grey(2.0), facets: metal }, 5)
 }
 
 /// Something below a coat of these facets and thickness that light scatters in.
-pub(super) fn clouded((coat, thickness): (Facets, f32), cloud: Cloud, below: Below, bounces: u16) -> Lobe {
+pub(super) fn clouded(
+    (coat, thickness): (Facets, f32),
+    cloud: Cloud,
+    below: Below,
+    bounces: u16,
+) -> Lobe<'static> {
     Lobe::Layered(Layered { eta: 1.5, coat, thickness, cloud, below, bounces, walks: 1, scale: 1.0 })
 }
 
@@ -77,7 +84,7 @@ fn cloud(albedo: f32, g: f32) -> Cloud {
 }
 
 /// What such white facets lose.
-pub(super) fn bounced(facets: Facets) -> Lobe {
+pub(super) fn bounced(facets: Facets) -> Lobe<'static> {
     let white = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
     let lost = Bounced::of(&white, &facets).expect("rough facets");
     Lobe::Matte(Matte::Bounced(lost))
@@ -97,32 +104,32 @@ pub(super) fn under(alpha: f32, coat: f32, sheen: f32) -> Under {
 }
 
 /// A white coat whose normal leans this way.
-pub(super) fn tilted(alpha: f32, normal: Vector3) -> Lobe {
+pub(super) fn tilted(alpha: f32, normal: Vector3) -> Lobe<'static> {
     let reflectance = Reflectance::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
     let glossy = Glossy { reflectance, facets: Facets::round(alpha), scale: 1.0 };
     Lobe::Tilted(Tilted { glossy, normal })
 }
 
 /// A rough sheet that reflects nothing.
-pub(super) fn sheet(alpha: f32) -> Lobe {
+pub(super) fn sheet(alpha: f32) -> Lobe<'static> {
     let none = Reflectance::Schlick { f0: Spectrum::BLACK, f90: Spectrum::BLACK };
     let outside = Glossy { reflectance: none, ..clear(alpha) };
     Lobe::Sheet(Sheet::below(&outside, Spectrum::ONE))
 }
 
 /// A hair of this absorption and roughness, hit at `h`.
-pub(super) fn hair(sigma_a: f32, beta: [f32; 2], h: f32) -> Lobe {
+pub(super) fn hair(sigma_a: f32, beta: [f32; 2], h: f32) -> Lobe<'static> {
     let strand = Strand { along: Vector3::new(0.6, -0.8, 0.0), is_left: h < 0.0, h };
     Lobe::Hair(Hair::new(&strand, grey(sigma_a), 1.55, beta, 2f32.to_radians()))
 }
 
 /// Lobes that spread, wide enough for the cells of a histogram.
-pub(super) fn spread() -> Vec<Lobe> {
+pub(super) fn spread() -> Vec<Lobe<'static>> {
     let round = Facets::round;
     let split = Split::Constant { reflection: grey(0.3), transmission: grey(0.6) };
     let blur = Blur::Cosine { reflection: 5.0, transmission: 20.0 };
     let phong = |exponent, half| Lobe::Phong(Phong { specular: grey(1.0), exponent, half });
-    vec![
+    let mut all = vec![
         Lobe::Diffuse { albedo: Spectrum::ONE },
         Lobe::Behind { albedo: Spectrum::ONE },
         Lobe::Highlight(Highlight { specular: grey(0.4), exponent: 12.0 }),
@@ -189,7 +196,9 @@ pub(super) fn spread() -> Vec<Lobe> {
         hair(0.0, [0.9, 0.9], 0.3),
         hair(0.3, [0.4, 0.7], -0.8),
         hair(1.2, [0.7, 0.35], 0.0),
-    ]
+    ];
+    all.extend(measured::lobes());
+    all
 }
 
 /// Disney's body, this flat.
@@ -198,7 +207,7 @@ pub(super) fn burley(flatness: f32) -> Burley {
 }
 
 /// What leaves a smooth body of this index, seen from below.
-fn leaving(eta: f32) -> Lobe {
+fn leaving(eta: f32) -> Lobe<'static> {
     let mut bsdf = Bsdf::default().with(Lobe::Interface(Interface::clear(eta)));
     bsdf.leave(Vector3::new(0.6, 0.0, -0.8));
     let found = bsdf.lobes().find(|lobe| matches!(lobe, Lobe::Matte(_))).copied();
@@ -206,7 +215,7 @@ fn leaving(eta: f32) -> Lobe {
 }
 
 /// Lobes that do not.
-pub(super) fn sharp() -> Vec<Lobe> {
+pub(super) fn sharp() -> Vec<Lobe<'static>> {
     vec![
         Lobe::Ambient { coefficient: Spectrum::ONE },
         Lobe::Mirror { weight: grey(0.9) },
@@ -243,6 +252,7 @@ fn number(lobe: &Lobe) -> usize {
         Lobe::Matte(Matte::Leaving(_)) => 20,
         Lobe::Matte(Matte::Burley(_)) => 21,
         Lobe::Varnish(_) => 22,
+        Lobe::Measured(_) => 23,
     }
 }
 
@@ -251,5 +261,5 @@ fn every_kind_of_lobe_is_here() {
     let mut here: Vec<usize> = spread().iter().chain(&sharp()).map(number).collect();
     here.sort_unstable();
     here.dedup();
-    assert_eq!(here, (0..23).collect::<Vec<_>>());
+    assert_eq!(here, (0..24).collect::<Vec<_>>());
 }

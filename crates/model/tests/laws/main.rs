@@ -3,6 +3,7 @@
 //! reciprocal. `DURER_SLOW=1` takes more directions and more points.
 mod lobes;
 mod materials;
+mod measured;
 mod numbers;
 mod sampling;
 

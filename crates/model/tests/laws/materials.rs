@@ -107,7 +107,8 @@ fn brushed_metal_reflects_more_along_the_brush_and_bodies_have_a_medium() {
     let up = Vector3::new(0.0, 0.0, 1.0);
     let brushed = Params::new().float("metallic", 1.0).float("roughness", 0.3).float("anisotropy", 0.9);
     let mut surface = Surface { dpdu: Vector3::new(0.0, 3.0, 0.0), ..place() };
-    let bsdf = built("principled", brushed).expect("sound").bsdf(&CX, &mut surface, up);
+    let metal = built("principled", brushed).expect("sound");
+    let bsdf = metal.bsdf(&CX, &mut surface, up);
     let [across, along] = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.0, 0.6, 0.8)]
         .map(|wi| bsdf.eval(surface.frame().to_local(up), surface.frame().to_local(wi)).mean());
     assert!(along > 5.0 * across, "{along} {across}");
@@ -128,7 +129,8 @@ fn brushes_follow_the_directions_of_a_texture() {
     let brushed = || Params::new().float("metallic", 1.0).float("roughness", 0.3).float("anisotropy", 0.9);
     let value = |params: Params, surface: &Surface, wi: Vector3| {
         let mut surface = *surface;
-        let bsdf = built("principled", params).expect("sound").bsdf(&CX, &mut surface, up);
+        let material = built("principled", params).expect("sound");
+        let bsdf = material.bsdf(&CX, &mut surface, up);
         bsdf.eval(surface.frame().to_local(up), surface.frame().to_local(wi)).mean()
     };
     let plain = Surface { dpdu: Vector3::new(2.0, 0.0, 0.0), dpdv: Vector3::new(0.0, 3.0, 0.0), ..place() };
@@ -156,7 +158,8 @@ fn coats_have_the_normal_of_the_shape_or_one_of_their_own() {
     // The one sharp direction: that of the coat.
     let mirrored = |params: Params| {
         let mut surface = place();
-        let bsdf = built("principled", params).expect("sound").bsdf(&CX, &mut surface, up);
+        let material = built("principled", params).expect("sound");
+        let bsdf = material.bsdf(&CX, &mut surface, up);
         let branches = bsdf.sharp(surface.frame().to_local(up));
         let all: Vec<_> =
             branches.iter().map(|b| (surface.frame().to_world(b.wi), b.weight.mean())).collect();
@@ -249,7 +252,8 @@ fn materials_are_reciprocal_e5() {
 /// The sum of glTF's material in a uniform sky, seen under a cosine.
 fn furnace(params: Params, cos: f32) -> f64 {
     let wo = Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-    let bsdf = built("principled", params).expect("sound").bsdf(&CX, &mut place(), wo);
+    let material = built("principled", params).expect("sound");
+    let bsdf = material.bsdf(&CX, &mut place(), wo);
     energy(&bsdf, wo, 60_000, &mut Random::new(94)).0
 }
 
@@ -291,8 +295,8 @@ fn mixtures_are_weighted_sums() {
     let grey = |v: f32| Node::new("diffuse", Params::new().rgb("reflectance", [v; 3]));
     let mirror = || Node::new("mirror", Params::new().rgb("reflectance", [0.5; 3]));
     let wo = seen_from()[0];
-    let bsdf = |material: Box<dyn Material>| material.bsdf(&CX, &mut place(), wo);
-    let mixed = bsdf(mixture(grey(0.8), mirror(), 0.25).expect("two materials"));
+    let mixed = mixture(grey(0.8), mirror(), 0.25).expect("two materials");
+    let mixed = mixed.bsdf(&CX, &mut place(), wo);
     assert!((mixed.ambient().mean() - 0.6).abs() < 1e-6);
     let branches: Vec<_> = mixed.branches(wo).iter().map(|b| b.weight.mean()).collect();
     assert_eq!(branches, [0.125]);
@@ -303,10 +307,12 @@ fn mixtures_are_weighted_sums() {
     let hole = || Node::new("interface", Params::new());
     let half = mixture(grey(1.0), hole(), 0.5).expect("two materials");
     assert!(half.is_passed() && !half.is_hole(&CX, &place().texture_at()));
-    assert_eq!(bsdf(half).branches(wo).iter().map(|b| b.weight.mean()).collect::<Vec<_>>(), [0.5]);
+    let half = half.bsdf(&CX, &mut place(), wo);
+    assert_eq!(half.branches(wo).iter().map(|b| b.weight.mean()).collect::<Vec<_>>(), [0.5]);
     assert!(mixture(hole(), hole(), 0.5).expect("two").is_hole(&CX, &place().texture_at()));
     // Ends are one of both.
-    assert_eq!(bsdf(mixture(grey(0.8), mirror(), 1.0).expect("two")).ambient().mean(), 0.0);
+    let end = mixture(grey(0.8), mirror(), 1.0).expect("two");
+    assert_eq!(end.bsdf(&CX, &mut place(), wo).ambient().mean(), 0.0);
     assert!(mixture(grey(0.8), Node::new("mixed", Params::new()), 0.5).is_none());
 }
 

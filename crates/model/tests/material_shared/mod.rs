@@ -48,7 +48,7 @@ pub(crate) fn seen_under(cos: f32) -> Vector3 {
     Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos)
 }
 
-pub(crate) fn bsdf(material: &dyn Material, wo: Vector3) -> Bsdf {
+pub(crate) fn bsdf(material: &dyn Material, wo: Vector3) -> Bsdf<'_> {
     material.bsdf(&CX, &mut place(), wo)
 }
 

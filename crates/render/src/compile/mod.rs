@@ -17,6 +17,7 @@ mod sides;
 mod strands;
 
 use std::{
+    collections::BTreeMap,
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -176,6 +177,9 @@ fn compiled(
     let (view, placed) = (view?, placed?);
     let mut report = Report::new(counts, &placed, of_textures, of_shapes + of_placing);
     report.texture_bytes = textures.iter().map(|texture| texture.bytes()).sum();
+    let measured = materials.iter().filter_map(|material| material.measurement());
+    let measured: BTreeMap<_, _> = measured.map(|of| (Arc::as_ptr(of), of.bytes())).collect();
+    report.measured_bytes = measured.values().sum();
     if diagnostics.has_errors() {
         return None;
     }

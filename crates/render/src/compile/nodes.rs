@@ -4,7 +4,7 @@ use std::{collections::HashMap, sync::Arc};
 use durer_model::{
     camera::{CAMERAS, Camera},
     filter::{FILTERS, Filter},
-    material::{self, ForceDiffuse, MATERIALS, Material},
+    material::{ForceDiffuse, MATERIALS, Material},
     shape::{Geometry, SHAPES},
     texture::{self, Texture},
 };
@@ -118,11 +118,9 @@ impl Builder<'_> {
     pub(super) fn materials(&mut self) -> Vec<Box<dyn Material>> {
         let mut materials = Vec::new();
         let all = &self.desc.materials;
-        warn_stand_ins("material", all.iter().map(|m| &m.node), material::NOT_YET, self.diagnostics);
         for (i, named) in all.iter().enumerate() {
-            let node = stand_in(&named.node, material::NOT_YET);
             let before = all.get(..i).unwrap_or_default();
-            let (built, said) = self.apart(MATERIALS, "material", &node, (&self.desc.textures, before));
+            let (built, said) = self.apart(MATERIALS, "material", &named.node, (&self.desc.textures, before));
             self.diagnostics.append(said);
             materials.extend(built);
         }
@@ -202,12 +200,7 @@ fn warn_stand_ins<'n>(
 /// The node itself, or the registered kind that is used until we have this one.
 fn stand_in(node: &Node, not_yet: &[(&str, &str)]) -> Node {
     let Some((_, instead)) = not_yet.iter().find(|(word, _)| *word == node.kind) else { return node.clone() };
-    let params =
-        node.params.iter().filter(|p| p.name == "reflectance").cloned().fold(Params::new(), |mut all, p| {
-            all.push(p);
-            all
-        });
-    Node { kind: (*instead).to_owned(), params, at: node.at.clone() }
+    Node { kind: (*instead).to_owned(), params: Params::new(), at: node.at.clone() }
 }
 
 /// The material of shapes that name none: grey matte.

@@ -38,6 +38,8 @@ pub struct Report {
     pub placed_mesh_bytes: u64,
     /// Heap memory that textures take beside their images: smaller copies of them, in bytes.
     pub texture_bytes: u64,
+    /// Heap memory of what was measured of materials, a shared file once, in bytes.
+    pub measured_bytes: u64,
     /// Bytes that the kernel was expected to take, guessed from the counts before it was built. Most scenes take less.
     pub expected_bytes: u64,
     /// The same at most while it was built, the finished kernel included.
@@ -91,6 +93,7 @@ impl Report {
             geometry: counts,
             placed_mesh_bytes: placed.placed_mesh_bytes,
             texture_bytes: 0,
+            measured_bytes: 0,
             expected_bytes: counts.bytes(|cost| cost.kept),
             building_bytes: counts.bytes(|cost| cost.building),
             times: Times { textures, geometry: geometry.saturating_sub(acceleration), acceleration },

@@ -22,13 +22,13 @@ pub(super) const LIGHT_BRANCH: u32 = 1 << 16;
 pub(super) const MEDIUM_BRANCH: u32 = 1 << 14;
 
 /// A surface point with its lobes.
-pub(super) struct Shading {
+pub(super) struct Shading<'a> {
     /// What was hit.
     pub(super) object: Id<Object>,
     /// Where.
     pub(super) surface: Surface,
     /// How it scatters.
-    pub(super) bsdf: Bsdf,
+    pub(super) bsdf: Bsdf<'a>,
     /// The frame of the lobes.
     pub(super) frame: Frame,
     /// Unit direction back along the ray.
@@ -54,24 +54,24 @@ pub(super) struct Lamp {
     pub(super) radiance: Spectrum,
 }
 
-impl Shading {
+impl<'a> Shading<'a> {
     /// The place where `ray`, of unit direction, hit; without `onlooker` textures are not filtered.
-    pub(super) fn at(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit, onlooker: Option<Onlooker>) -> Self {
-        let bsdf = |m: &dyn Material, s: &mut Surface| m.bsdf(&cx.shade(), s, -ray.d);
+    pub(super) fn at(cx: &SampleCx<'a>, ray: &Ray, hit: &Hit, onlooker: Option<Onlooker>) -> Self {
+        let bsdf = |m: &'a dyn Material, s: &mut Surface| m.bsdf(&cx.shade(), s, -ray.d);
         Self::by(cx, (ray, hit), onlooker, bsdf)
     }
 
     /// The same for paths that follow light below the surface.
-    pub(super) fn open(cx: &SampleCx<'_>, ray: &Ray, hit: &Hit, onlooker: Onlooker) -> Self {
-        let bsdf = |m: &dyn Material, s: &mut Surface| m.open_bsdf(&cx.shade(), s, -ray.d);
+    pub(super) fn open(cx: &SampleCx<'a>, ray: &Ray, hit: &Hit, onlooker: Onlooker) -> Self {
+        let bsdf = |m: &'a dyn Material, s: &mut Surface| m.open_bsdf(&cx.shade(), s, -ray.d);
         Self::by(cx, (ray, hit), Some(onlooker), bsdf)
     }
 
     fn by(
-        cx: &SampleCx<'_>,
+        cx: &SampleCx<'a>,
         (ray, hit): (&Ray, &Hit),
         onlooker: Option<Onlooker>,
-        bsdf: impl FnOnce(&dyn Material, &mut Surface) -> Bsdf,
+        bsdf: impl FnOnce(&'a dyn Material, &mut Surface) -> Bsdf<'a>,
     ) -> Self {
         let (object, mut surface) = cx.scene.surface(ray, hit);
         if let Some(onlooker) = onlooker.filter(|o| o.asks(cx.scene.filters)) {

@@ -33,7 +33,7 @@ pub struct Shaded<'a> {
     /// Unit direction back along the ray in the frame of the lobes, whose z axis is the shading normal.
     pub wo: Vector3,
     /// How the surface scatters, with the index of refraction that counts here.
-    pub bsdf: &'a Bsdf,
+    pub bsdf: &'a Bsdf<'a>,
     /// The transparent bodies before the surface.
     pub before: MediumStack,
     /// Those behind it.

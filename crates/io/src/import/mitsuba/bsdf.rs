@@ -6,7 +6,7 @@ use durer_scene::{Data, MaterialRef, Params, ValueType};
 use super::{
     hair,
     index::relative,
-    layered, metal,
+    layered, measured, metal,
     object::Object,
     principled, tilted,
     world::{Plugin, Role, World},
@@ -92,6 +92,7 @@ const OPAQUE: &[Plugin<Build>] = &[
         lacks: &[],
         build: layered::plastic,
     },
+    Plugin { name: "measured", takes: &["filename"], lacks: &[], build: measured::reflecting },
     Plugin {
         name: "phong",
         takes: &["diffuse_reflectance", "specular_reflectance", "exponent"],

@@ -12,6 +12,7 @@ mod hair;
 mod index;
 mod integrator;
 mod layered;
+mod measured;
 mod medium;
 mod mesh;
 mod metal;

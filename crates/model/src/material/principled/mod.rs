@@ -220,7 +220,7 @@ impl Principled {
         (surface, smooth): (&Surface, Normal3),
         wo: Vector3,
         depth: Depth,
-    ) -> Bsdf {
+    ) -> Bsdf<'_> {
         let at = surface.texture_at();
         let unit = |input: FloatInput| cx.float(input, &at).clamp(0.0, 1.0);
         let (base, coverage) = (self.base(cx, &at), self.share_there(cx, &at));
@@ -293,7 +293,7 @@ impl Principled {
 
 impl Principled {
     /// The lobes for those who follow light as deep.
-    fn lobes(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, depth: Depth) -> Bsdf {
+    fn lobes(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3, depth: Depth) -> Bsdf<'_> {
         let (at, smooth) = (surface.texture_at(), surface.n_s);
         if let Some(map) = &self.normal {
             surface.n_s = self.tilted(cx, map, surface, wo);
@@ -307,10 +307,10 @@ impl Principled {
 }
 
 impl Material for Principled {
-    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.lobes(cx, surface, wo, Depth::Flat)
     }
-    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf {
+    fn open_bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, wo: Vector3) -> Bsdf<'_> {
         self.lobes(cx, surface, wo, Depth::Open)
     }
     fn is_walked(&self) -> bool {

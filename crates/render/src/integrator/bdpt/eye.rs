@@ -123,7 +123,7 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
     /// What happens at a surface, before which the medium has `sent` light.
     fn shade(
         &mut self,
-        (ray, s, crossing): (PathRay, Shading, Crossing),
+        (ray, s, crossing): (PathRay, Shading<'a>, Crossing),
         (left, sent): (Spectrum, Spectrum),
         (flight, id): (&mut Flight, P::Id),
     ) -> Step {

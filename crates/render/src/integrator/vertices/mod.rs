@@ -93,7 +93,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         ray: &mut PathRay,
         (hit, passed): (&Hit, Spectrum),
         announce: impl FnOnce(&mut Self, &Shading),
-    ) -> Option<(Shading, Crossing, Spectrum)> {
+    ) -> Option<(Shading<'a>, Crossing, Spectrum)> {
         let mut s = Shading::at(self.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
         announce(self, &s);
         let crossing = self.cross(&ray.media, &mut s, hit.t);

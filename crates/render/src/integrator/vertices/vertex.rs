@@ -37,7 +37,7 @@ pub(in super::super) struct Vertex<'a> {
 #[allow(clippy::large_enum_variant, reason = "most are surfaces, and few are kept")]
 pub(in super::super) enum Place<'a> {
     /// A surface.
-    Surface(Shading, Crossing),
+    Surface(Shading<'a>, Crossing),
     /// A particle that floats.
     Particle(&'a Phase),
 }

@@ -1,6 +1,8 @@
-//! Grids of voxels in files that parameters name.
+//! Grids of voxels, and arrays of numbers, in files that parameters name.
+use std::sync::Arc;
+
 use super::Args;
-use crate::Voxels;
+use crate::{Tensors, Voxels};
 
 impl Args<'_> {
     /// The names of the grids of voxels in the file that a [`crate::ParamType::File`] names; `None` as with images.
@@ -13,5 +15,11 @@ impl Args<'_> {
     pub fn voxels(&mut self, name: &str, grid: &str) -> Option<Voxels> {
         let (assets, _) = self.assets?;
         self.found(name, assets.voxels(self.text(name), grid), "nothing is shown")
+    }
+
+    /// The arrays of numbers in the file that a [`crate::ParamType::File`] names; `None` as with images.
+    pub fn tensors(&mut self, name: &str) -> Option<Arc<Tensors>> {
+        let (assets, _) = self.assets?;
+        self.found(name, assets.tensors(self.text(name)), "a placeholder is shown")
     }
 }
