@@ -192,19 +192,6 @@ fn walks_from_both_ends_make_the_pictures_of_pbrt() {
     }
 }
 
-/// Paths find this caustic by luck only, as its lamp is small.
-#[test]
-fn walks_from_both_ends_find_a_caustic_in_fog() {
-    if std::env::var_os("DURER_SLOW").is_none() {
-        eprintln!("SKIPPED: walks_from_both_ends_find_a_caustic_in_fog: set DURER_SLOW=1");
-        return;
-    }
-    let Some(folder) = shared("walks_from_both_ends_find_a_caustic_in_fog") else { return };
-    for case in OTHERS.iter().filter(|case| case.name == "volumetric-caustic") {
-        check(&folder, case, (Some("bdpt"), case.verdict.carried()), 64);
-    }
-}
-
 #[test]
 fn paths_make_all_pictures_of_pbrt() {
     let Some(wanted) = std::env::var_os("DURER_SLOW") else {

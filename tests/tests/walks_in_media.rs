@@ -96,6 +96,22 @@ fn points_in_fog_light_it() {
     assert!(all.abs() < 0.02 && pixels < 0.1, "{all}, pixels {pixels}");
 }
 
+/// A beam below a glass ball under a small lamp: particles and all walks make the same picture of it, paths hardly any.
+#[test]
+fn a_caustic_in_fog_is_found_from_the_light() {
+    let beam = "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 AreaLightSource \"diffuse\" \"rgb L\" [3000 2500 2000]\n\
+        Shape \"disk\" \"float radius\" 0.05 AttributeEnd\n\
+        AttributeBegin Material \"dielectric\" \"float eta\" 1.5 Translate 0 3.9 0 Shape \"sphere\" \"float radius\" 0.6 AttributeEnd\n";
+    let world = format!("{}{beam}{THINGS}{FILLED}", fog(EVEN));
+    let depth = "\"integer maxdepth\" 4 \"integer roulettedepth\" 20";
+    let of = |word| means(&picture(&format!("\"{word}\" {depth}"), "", &world, (512, Carried::Rgb)));
+    let [paths, light, both] = ["volpath", "light", "bdpt"].map(of);
+    let (all, pixels) = difference(&light, &both);
+    assert!(all.abs() < 0.02 && pixels < 0.1, "{all}, pixels {pixels}");
+    let (_, lost) = difference(&light, &paths);
+    assert!(lost > 5.0 * pixels, "paths are off by {lost}, walks from both ends by {pixels}");
+}
+
 #[test]
 fn grids_and_clouds_are_those_of_paths() {
     for (name, params) in grids() {
