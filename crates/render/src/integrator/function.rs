@@ -64,7 +64,7 @@ impl Function {
             }
             Self::Gaussian => {
                 // A standard deviation of 1/4, and erf(sqrt 2): what lies within two of them.
-                const WITHIN: f32 = 0.954_499_74;
+                const WITHIN: f32 = 0.954_499_7;
                 8.0 * FRAC_1_PI / sqr(WITHIN) * exp(-8.0 * (sqr(x) + sqr(y)))
             }
         }
