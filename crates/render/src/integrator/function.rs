@@ -158,6 +158,6 @@ mod tests {
         let board = Function::Checkerboard;
         assert_eq!((at(board, 0.05, 0.05), at(board, 0.15, 0.05), at(board, 0.15, 0.15)), (0.0, 2.0, 0.0));
         let (middle, edge) = (at(Function::Gaussian, 0.5, 0.5), at(Function::Gaussian, 1.0, 0.5));
-        assert!((edge / middle - (-2.0f32).exp()).abs() < 1e-6, "{middle} {edge}");
+        assert!((edge / middle - exp(-2.0)).abs() < 1e-6, "{middle} {edge}");
     }
 }
