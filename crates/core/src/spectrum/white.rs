@@ -63,14 +63,14 @@ mod tests {
 
     #[test]
     fn daylight_is_where_the_cie_has_it() {
-        // D50, D55, D65 and D75 (CIE 15:2004, table T.3), illuminant A and a candle on the Planckian locus.
+        // D50, D55, D65 and D75 (CIE 15:2004, table T.3), illuminant A and a glow of 2000 K on the Planckian locus.
         let known = [
             (5000.0, [0.3457, 0.3585]),
             (5500.0, [0.3324, 0.3474]),
             (6500.0, D65),
             (7500.0, [0.2990, 0.3149]),
             (2854.0, [0.4476, 0.4074]),
-            (1900.0, [0.5368, 0.4113]),
+            (2000.0, [0.5267, 0.4133]),
         ];
         for (kelvin, expected) in known {
             let got = daylight(kelvin);

@@ -136,6 +136,18 @@ fn split(
     length: impl Fn(Point3, Point3) -> f32,
     edge_length: f32,
 ) -> Result<(), String> {
+    let too_many = || {
+        Err(format!(
+            "displacement makes more than {MOST_TRIANGLES} triangles with edges shorter than {edge_length} m: take a larger \
+             \"edgelength\""
+        ))
+    };
+    // None with such edges is larger than that of equal ones: what is hopeless is refused before it takes memory.
+    let largest = 0.25 * 3f64.sqrt() * f64::from(edge_length).powi(2);
+    let area: f64 = triangles.iter().map(|t| area(t.map(|i| mesh.positions[i as usize]), &length)).sum();
+    if area / largest > MOST_TRIANGLES as f64 {
+        return too_many();
+    }
     let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
     let mut open = Vec::new();
     let mut count = triangles.len();
@@ -157,10 +169,7 @@ fn split(
             };
             count += 1;
             if count > MOST_TRIANGLES {
-                return Err(format!(
-                    "displacement makes more than {MOST_TRIANGLES} triangles with edges shorter than {edge_length} m: take a larger \
-                     \"edgelength\""
-                ));
+                return too_many();
             }
             let middle = *middles.entry((a.min(b), a.max(b))).or_insert_with(|| between(mesh, a, b));
             // The last in is the first out: halves come in the order of the triangle.
@@ -169,6 +178,13 @@ fn split(
         }
     }
     Ok(())
+}
+
+/// Area by the lengths of the edges (Heron).
+fn area([p, q, r]: [Point3; 3], length: impl Fn(Point3, Point3) -> f32) -> f64 {
+    let [a, b, c] = [length(p, q), length(q, r), length(r, p)].map(f64::from);
+    let s = 0.5 * (a + b + c);
+    (s * (s - a) * (s - b) * (s - c)).max(0.0).sqrt()
 }
 
 /// Adds the vertex in the middle of two.

@@ -1,7 +1,7 @@
 //! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
 use durer_scene::{
-    Args, Crop, Diagnostics, FilmDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
-    Schema, counted,
+    Args, Crop, Diagnostics, FilmDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema,
+    counted,
 };
 
 const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> ParamSpec {
@@ -181,7 +181,8 @@ pub(super) fn film(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagnosti
         }
     }
     if node.kind == "gbuffer" {
-        let message = "film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own";
+        let message =
+            "film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own";
         let hint = "--integrator cast --show normal, depth, albedo, uv or id, to .exr";
         diagnostics.warning(node.at.clone(), message).hint(hint);
     }

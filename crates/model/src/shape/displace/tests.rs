@@ -28,7 +28,7 @@ fn length(a: Point3, b: Point3) -> f32 {
     (a - b).length()
 }
 
-fn area(mesh: &Mesh) -> f64 {
+fn surface(mesh: &Mesh) -> f64 {
     mesh.indices.iter().map(|t| 0.5 * normal(&mesh.positions, t).length()).sum()
 }
 
@@ -57,7 +57,7 @@ fn open_edges(mesh: &Mesh) -> usize {
 fn a_plane_that_is_moved_evenly_is_the_same_plane_elsewhere() {
     let fine = displaced(&square(4.0), length, 0.5, |_| 0.25).expect("displaced");
     assert!(fine.indices.len() > 128, "{}", fine.indices.len());
-    assert!((area(&fine) - 16.0).abs() < 1e-5);
+    assert!((surface(&fine) - 16.0).abs() < 1e-5);
     assert!(fine.positions.iter().all(|p| p.z == 0.25));
     assert!(fine.normals.iter().all(|n| *n == Normal3::new(0.0, 0.0, 1.0)));
     assert_eq!((fine.uvs.len(), fine.validate()), (fine.positions.len(), Ok(())));
@@ -97,7 +97,7 @@ fn a_sphere_grows_by_what_it_is_displaced() {
     let exact = 4.0 / 3.0 * std::f64::consts::PI * 1.25f64.powi(3);
     assert!((volume(&fine) / exact - 1.0).abs() < 2e-3, "{} {exact}", volume(&fine));
     let sphere = 4.0 * std::f64::consts::PI * 1.5625;
-    assert!((area(&fine) / sphere - 1.0).abs() < 2e-3, "{} {sphere}", area(&fine));
+    assert!((surface(&fine) / sphere - 1.0).abs() < 2e-3, "{} {sphere}", surface(&fine));
     for (p, n) in fine.positions.iter().zip(&fine.normals) {
         assert!(p.to_f64().normalize().dot(n.to_f64()) > 0.999);
     }
