@@ -162,11 +162,11 @@ fn the_cameras_shutter_is_used_if_something_moves_and_options_win() {
 
 #[test]
 fn what_is_not_supported_yet_is_a_warning_with_a_count() {
-    let text = "WorldBegin\nMaterial \"measured\"\nShape \"disk\"\nMaterial \"measured\"\nShape \"sphere\"\n";
+    let text = "WorldBegin\nTexture \"a\" \"spectrum\" \"ptex\"\nTexture \"b\" \"spectrum\" \"ptex\"\nShape \"sphere\"\n";
     let mut imported = import(text);
     assert!(durer::prepare(&mut imported, &Options::default()).is_some());
     let said: Vec<_> = imported.diagnostics.iter().map(|d| d.message.as_str()).collect();
-    for what in ["\"measured\" is not supported yet: drawn as \"diffuse\" (2 of them)", "studio light"] {
+    for what in ["\"ptex\" is not supported yet: drawn as \"constant\" (2 of them)", "studio light"] {
         assert!(said.iter().any(|m| m.contains(what)), "{what}: {said:?}");
     }
 }

@@ -185,9 +185,10 @@ mod tests {
                 let u = Point2::new((i % 20) as f32 / 19.0, (i / 20) as f32 / 19.0);
                 let (p, density) = warp.sample(&blend, u);
                 let (back, same) = warp.invert(&blend, p);
-                // At the end of a row that is empty at its end there is more than one way.
+                // From where there is no density, as on an empty row, there is more than one way.
                 let off = (back.x - u.x).abs().max((back.y - u.y).abs());
-                assert!(off < 2e-3 && (density - same).abs() < 2e-3 * density.max(0.1), "{a} {u:?} {back:?}");
+                let leads_back = off < 2e-3 || density == 0.0;
+                assert!(leads_back && (density - same).abs() < 2e-3 * density.max(0.1), "{a} {u:?} {back:?}");
             }
         }
     }
