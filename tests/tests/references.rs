@@ -37,7 +37,8 @@ const QUICK: &[Case] = &[
     case("smallpt", "cornell-box-variants/smallpt.pbrt", Verdict::Agrees),
     case("cornell-box-silver", "cornell-box-variants/cornell-box-silver.pbrt", Verdict::Agrees),
     case("cornell-box-specular", "cornell-box-variants/cornell-box-specular.pbrt", Verdict::Agrees),
-    case("veach-mis", "veach-mis/scene-v4.pbrt", Verdict::Agrees),
+    // Its plates are of metal, whose curves three numbers make 0.4 % darker.
+    case("veach-mis", "veach-mis/scene-v4.pbrt", Verdict::NeedsWavelengths),
     case("cornell-box", "cornell-box/scene-v4.pbrt", Verdict::NeedsWavelengths),
 ];
 
