@@ -227,6 +227,7 @@ impl Scene {
     }
 
     /// The object of a hit, and which of its triangles or parts was hit.
+    #[inline]
     pub fn resolve(&self, hit: &Hit) -> (Id<Object>, u32) {
         match &self.targets[hit.instance as usize] {
             Target::Baked(object, _) | Target::Mesh(object, _) => (*object, hit.prim),

@@ -118,35 +118,34 @@ impl Classic {
 impl Material for Classic {
     fn bsdf(&self, cx: &ShadeCx<'_>, surface: &mut Surface, _wo: Vector3) -> Bsdf<'_> {
         let at = surface.texture_at();
-        let mut bsdf = Bsdf::default();
-        bsdf.add(Lobe::Diffuse { albedo: share(cx, &self.diffuse, &at) });
-        if let Some(ambient) = &self.ambient {
-            bsdf.add(Lobe::Ambient { coefficient: share(cx, ambient, &at) });
-        }
-        let optional =
-            |input: &Option<ColorInput>| input.as_ref().map_or(Spectrum::BLACK, |i| share(cx, i, &at));
-        let specular = optional(&self.specular);
-        if !specular.is_black() {
-            bsdf.add(Lobe::Highlight(Highlight { specular, exponent: self.exponent }));
-        }
-        let (reflection, transmission) = (optional(&self.reflection), optional(&self.transmission));
-        if !transmission.is_black() || (self.fresnel && !reflection.is_black()) {
-            let split = match self.fresnel {
-                true => Split::Fresnel { reflection, transmission },
-                false => Split::Constant { reflection, transmission },
-            };
-            let interface = Interface { eta: self.medium.eta(&cx.basis), split };
-            bsdf.add(match self.gloss.min(self.translucency).is_finite() {
-                true => Lobe::Blurred(Blurred { interface, blur: self.blur() }),
-                false => Lobe::Interface(interface),
-            });
-        } else if !reflection.is_black() {
-            bsdf.add(match self.gloss.is_finite() {
-                true => Lobe::Gloss(Gloss { weight: reflection, exponent: self.gloss }),
-                false => Lobe::Mirror { weight: reflection },
-            });
-        }
-        bsdf
+        let optional = |input: &Option<ColorInput>| input.as_ref().map(|i| share(cx, i, &at));
+        let there = |input| optional(input).filter(|weight| !weight.is_black());
+        let diffuse = Lobe::Diffuse { albedo: share(cx, &self.diffuse, &at) };
+        let ambient = optional(&self.ambient).map(|coefficient| Lobe::Ambient { coefficient });
+        let exponent = self.exponent;
+        let highlight =
+            there(&self.specular).map(|specular| Lobe::Highlight(Highlight { specular, exponent }));
+        let followed = match (there(&self.reflection), there(&self.transmission)) {
+            (None, None) => None,
+            (Some(weight), None) if !self.fresnel => Some(match self.gloss.is_finite() {
+                true => Lobe::Gloss(Gloss { weight, exponent: self.gloss }),
+                false => Lobe::Mirror { weight },
+            }),
+            shares => {
+                let (reflection, transmission) =
+                    (shares.0.unwrap_or(Spectrum::BLACK), shares.1.unwrap_or(Spectrum::BLACK));
+                let split = match self.fresnel {
+                    true => Split::Fresnel { reflection, transmission },
+                    false => Split::Constant { reflection, transmission },
+                };
+                let interface = Interface { eta: self.medium.eta(&cx.basis), split };
+                Some(match self.gloss.min(self.translucency).is_finite() {
+                    true => Lobe::Blurred(Blurred { interface, blur: self.blur() }),
+                    false => Lobe::Interface(interface),
+                })
+            }
+        };
+        Bsdf::of([Some(diffuse), ambient, highlight, followed])
     }
     /// Nothing keeps the coefficients' sum below 1. The highlight of a lamp is less than twice its coefficient times the
     /// lamp: `ks cos^n / pi` over a hemisphere.

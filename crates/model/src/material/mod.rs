@@ -165,6 +165,7 @@ fn share_input(args: &mut Args<'_>, name: &str) -> ColorInput {
 }
 
 /// A reflectance or transmittance at a point; values outside `[0, 1]` are clamped.
+#[inline]
 fn share(cx: &ShadeCx<'_>, input: &ColorInput, at: &TextureAt) -> Spectrum {
     cx.weight(input, at, |v| v.clamp(0.0, 1.0))
 }

@@ -146,6 +146,7 @@ impl<'a> Job<'a> {
         self.eye_of(pixel, &self.sampler(pixel).numbered(sample))
     }
     /// The same by the sample's sampler.
+    #[inline]
     fn eye_of(&self, pixel: [u32; 2], sampler: &Sampler) -> (Eye, f32) {
         pass::eye_ray((&self.scene.view, self.settings.nesting), pixel, sampler, self.passes.sampler())
     }

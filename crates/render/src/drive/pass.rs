@@ -37,6 +37,7 @@ pub(super) struct Eye {
 /// The eye ray of a sample of `pixel`, and its weight: spread by the filter, at a moment of the exposure, through a point
 /// of the lens.
 /// All samples of a pass have the moment of `of_pass`, if it is given.
+#[inline]
 pub(super) fn eye_ray(
     (view, nesting): (&View, Nesting),
     pixel: [u32; 2],
@@ -82,6 +83,7 @@ pub(super) fn eye_at(view: &View, nesting: Nesting, film: Point2, sampler: &Samp
 }
 
 /// The eye ray through a point of the picture, in pixels, when this row is exposed.
+#[inline]
 fn eye_through(
     (view, nesting): (&View, Nesting),
     (film, row): (Point2, u32),

@@ -129,14 +129,14 @@ impl Scene {
                 }
             }
         }
-        let (near, far) = (near.present(&self.media, basis), crossing.behind.present(&self.media, basis));
-        crossing.boundary = match near.medium == far.medium {
+        let (media, far) = (&self.media, &crossing.behind);
+        let filling = [&near, far].map(|stack| stack.body(media));
+        crossing.boundary = match filling[0] == filling[1] {
             true => Boundary::Passed,
-            false => Boundary::Between(far.eta / near.eta),
+            false => Boundary::Between(far.eta(media, basis) / near.eta(media, basis)),
         };
-        let disperses =
-            |medium: Option<Id<Medium>>| medium.is_some_and(|id| self.media.get(id).dispersion.is_some());
-        crossing.disperses = *basis != Basis::Rgb && (disperses(near.medium) || disperses(far.medium));
+        let disperses = |id: &Id<Medium>| media.get(*id).dispersion.is_some();
+        crossing.disperses = *basis != Basis::Rgb && filling.iter().flatten().any(disperses);
         crossing
     }
 

@@ -24,6 +24,8 @@ pub(crate) use start::{around, at, start};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Media {
     list: Vec<Medium>,
+    /// PERF: of priorities and hulls only this is asked for, often (bench render).
+    ranks: Vec<Rank>,
     of_object: Vec<Option<Id<Medium>>>,
     /// One of them is the inside of a body.
     bodies: bool,
@@ -31,15 +33,15 @@ pub struct Media {
     walked: bool,
 }
 
-/// What fills a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Present {
-    /// The medium; `None` for the empty space around everything.
-    pub(crate) medium: Option<Id<Medium>>,
-    /// Absolute index of refraction.
-    pub(crate) eta: f32,
-    /// What floats there.
-    pub(crate) fill: Fill,
+/// What a medium is to others in the same place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    /// No body: what floats in it is within the body around it.
+    Within,
+    /// A body that lies within what is around it.
+    Nested,
+    /// The place of its priority among all.
+    Prior(u32),
 }
 
 impl Media {
@@ -61,6 +63,7 @@ impl Media {
             of_object,
             bodies: list.iter().any(|m| m.hull == Hull::Body),
             walked: list.iter().any(|m| matches!(m.inside, Some(Fill::Below(_)))),
+            ranks: ranks(&list),
             list,
         }
     }
@@ -148,35 +151,47 @@ impl MediumStack {
         self.len -= 1;
         Ok(())
     }
-    /// What fills the place where the ray is.
-    pub(crate) fn present(&self, media: &Media, basis: &Basis) -> Present {
+    /// Those that have a say in what fills the place where the ray is, each what was there before it.
+    fn counting(&self, media: &Media) -> impl Iterator<Item = (Id<Medium>, Rank)> {
+        let mut highest = Rank::Within;
+        self.iter().map(|id| (id, media.ranks[id.index()])).filter(move |&(_, rank)| match rank {
+            Rank::Within | Rank::Nested => true,
+            Rank::Prior(_) => {
+                let counts = rank > highest;
+                highest = highest.max(rank);
+                counts
+            }
+        })
+    }
+    /// The body that fills the place where the ray is; `None` in the empty space around everything.
+    pub(crate) fn body(&self, media: &Media) -> Option<Id<Medium>> {
+        let bodies = self.counting(media).filter(|(_, rank)| *rank > Rank::Within);
+        bodies.fold(None, |_, (id, _)| Some(id))
+    }
+    /// What floats there.
+    pub(crate) fn fill(&self, media: &Media) -> Fill {
         let around = match self.around {
             0 => Fill::Nothing,
             number => Fill::Volume(u32::from(number) - 1),
         };
-        let mut present = Present { medium: None, eta: 1.0, fill: around };
-        let mut winner: Option<&Medium> = None;
-        for id in self.iter() {
-            let medium = media.get(id);
-            if medium.priority.is_none() {
-                let fill = medium.inside.unwrap_or(present.fill);
-                present = match medium.hull {
-                    Hull::Body => Present { medium: Some(id), eta: present.eta * medium.eta(basis), fill },
-                    Hull::Sheet | Hull::Open => Present { fill, ..present },
-                };
-            } else if winner.is_none_or(|w| yields(w, medium)) {
-                winner = Some(medium);
-                let fill = medium.inside.unwrap_or_default();
-                present = Present { medium: Some(id), eta: medium.eta(basis), fill };
-            }
-        }
-        present
+        self.counting(media).fold(around, |around, (id, rank)| {
+            let around = if rank > Rank::Nested { Fill::default() } else { around };
+            media.get(id).inside.unwrap_or(around)
+        })
+    }
+    /// The absolute index of refraction there.
+    pub(crate) fn eta(&self, media: &Media, basis: &Basis) -> f32 {
+        self.counting(media).fold(1.0, |eta, (id, rank)| match rank {
+            Rank::Within => eta,
+            Rank::Nested => eta * media.get(id).eta(basis),
+            Rank::Prior(_) => media.get(id).eta(basis),
+        })
     }
     /// Makes the account agree with a surface behind which, as it says, `fill` floats. Where a body of a priority is present
     /// it has its own.
     fn agree(&mut self, fill: Fill, media: &Media) {
         let has_priority = |id: &Id<Medium>| media.get(*id).priority.is_some();
-        if self.iter().any(|id| has_priority(&id)) || self.present(media, &Basis::Rgb).fill == fill {
+        if self.iter().any(|id| has_priority(&id)) || self.fill(media) == fill {
             return;
         }
         let silent = self.iter().filter(|id| media.get(*id).inside.is_none());
@@ -189,10 +204,18 @@ impl MediumStack {
     }
 }
 
-/// Whether `present` gives way to `other`, both with a priority: a total order of different media.
-fn yields(present: &Medium, other: &Medium) -> bool {
+/// Those with a priority are in a total order of different media.
+fn ranks(list: &[Medium]) -> Vec<Rank> {
     let key = |m: &Medium| {
         (m.priority, m.eta_d.to_bits(), m.absorption.rgb.map(f32::to_bits), (m.inside, m.outside, m.hull))
     };
-    key(present) < key(other)
+    let mut keys: Vec<_> = list.iter().filter(|m| m.priority.is_some()).map(key).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let rank = |m: &Medium| match (keys.binary_search(&key(m)), m.hull) {
+        (Ok(place), _) => Rank::Prior(place as u32),
+        (Err(_), Hull::Body) => Rank::Nested,
+        (Err(_), Hull::Sheet | Hull::Open) => Rank::Within,
+    };
+    list.iter().map(rank).collect()
 }

@@ -170,10 +170,10 @@ impl Probe for Recorder<'_> {
             let (n1, n2) = match fresnel {
                 // As it was refracted, also where the account of the bodies is wrong.
                 Some(fresnel) => {
-                    let n2 = event.after.present(media, &basis).eta;
+                    let n2 = event.after.eta(media, &basis);
                     (n2 / fresnel.eta, n2)
                 }
-                None => (event.before.present(media, &basis).eta, event.before.present(media, &basis).eta),
+                None => (event.before.eta(media, &basis), event.before.eta(media, &basis)),
             };
             TreeMedia { before: event.before, after: event.after, n1, n2 }
         });

@@ -66,7 +66,7 @@ impl<P: Probe> Follow<'_, P> {
     /// Whether light walks in what fills the place.
     pub(super) fn is_below(&self, bodies: &MediumStack) -> bool {
         let cx = self.walk.cx;
-        matches!(bodies.present(&cx.scene.media, &cx.basis).fill, Fill::Below(_))
+        matches!(bodies.fill(&cx.scene.media), Fill::Below(_))
     }
 
     /// Whether light walks below a surface.
@@ -99,7 +99,7 @@ impl<P: Probe> Follow<'_, P> {
         }
         child.below = None;
         let cx = self.walk.cx;
-        let Fill::Below(material) = crossing.behind.present(&cx.scene.media, &cx.basis).fill else { return };
+        let Fill::Below(material) = crossing.behind.fill(&cx.scene.media) else { return };
         let inside = cx.scene.materials[material as usize].inside(&cx.shade(), &s.surface.texture_at());
         let Some(inside) = inside else { return };
         let off = s.surface.p_error;

@@ -29,10 +29,10 @@ impl<P: Probe> Walk<'_, P> {
         let mut count = 0;
         for branch in branches.iter() {
             let kind = RayKind::sharp(branch.kind);
-            let media = crossing.media(branch.kind);
             let d = s.keep_side(s.frame.to_world(branch.wi), branch.kind).normalize();
             let ray = s.surface.spawn(d, parent.ray.time);
-            let child = PathRay { media, ..parent.child((s.surface.p, ray), branch.weight, count) };
+            let mut child = parent.child((s.surface.p, ray), branch.weight, count);
+            child.media = crossing.media(branch.kind);
             if P::RECORDS {
                 self.report_branch(s, count);
             }

@@ -70,8 +70,7 @@ impl<P: Probe> Walk<'_, P> {
             return None;
         }
         let media = &self.cx.scene.media;
-        let present = bodies.present(media, &self.cx.basis).medium.map(|id| media.get(id));
-        present.filter(|medium| medium.absorbs())
+        bodies.body(media).map(|id| media.get(id)).filter(|medium| medium.absorbs())
     }
 }
 
@@ -79,7 +78,7 @@ impl<'a, P: Probe> Walk<'a, P> {
     /// What floats where a ray in these bodies is; `None` if that is nothing, or does not concern this integrator.
     pub(in super::super) fn volume(&self, bodies: &MediumStack) -> Option<&'a Volume> {
         let scene = self.cx.scene;
-        let fill = bodies.present(&scene.media, &self.cx.basis).fill;
+        let fill = bodies.fill(&scene.media);
         scene.volume_of(fill).filter(|_| self.heeds_media)
     }
 
@@ -117,7 +116,7 @@ impl<'a, P: Probe> Walk<'a, P> {
     /// Tells what floats on the way of a ray, and the particle that it met.
     pub(in super::super) fn report_floating(&mut self, ray: &PathRay, flight: &Flight, id: P::Id) {
         let (scene, basis) = (self.cx.scene, self.cx.basis);
-        let fill = ray.media.present(&scene.media, &basis).fill;
+        let fill = ray.media.fill(&scene.media);
         let at = |t| {
             let p = ray.ray.at(t);
             let (sigma_a, sigma_s, g) = match (&ray.below, self.volume(&ray.media)) {
