@@ -59,11 +59,15 @@ pub(crate) fn check(scene: &Scene, integrator: &dyn Integrator, diagnostics: &mu
     Some(())
 }
 
-/// Says what glows and sends no particles.
+/// Says what glows where no particle starts.
 fn check_glow(scene: &Scene, diagnostics: &mut Diagnostics) {
-    let all = scene.volumes.iter().zip(&*scene.volume_names);
-    for (_, name) in all.filter(|(volume, _)| !volume.is_dark()) {
-        let message = format!("medium \"{name}\" sends no particles: what it lights by glowing stays dark");
-        diagnostics.warning(Location::None, message).hint("take \"bdpt\" or \"volpath\"");
+    for (_, name) in (0..).zip(&*scene.volume_names).filter(|(number, _)| scene.glows_endlessly(*number)) {
+        let message = format!(
+            "medium \"{name}\" glows without an end: what it sends from further than {} m around what has an end is missing",
+            scene.extent.radius
+        );
+        diagnostics
+            .warning(Location::None, message)
+            .hint("put a body around it, or take \"bdpt\" or \"volpath\"");
     }
 }

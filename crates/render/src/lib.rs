@@ -6,6 +6,7 @@
 
 pub mod compile;
 pub mod drive;
+mod emitters;
 pub mod film;
 mod footprint;
 pub mod integrator;

@@ -129,22 +129,6 @@ impl LightChooser {
     }
 }
 
-/// The lights that send particles, by their power.
-#[derive(Debug)]
-pub(crate) struct Emitters {
-    lights: Vec<u32>,
-    powers: Option<Steps>,
-}
-
-impl Emitters {
-    pub(crate) fn new(lights: &[Box<dyn Light>], radius: f32) -> Self {
-        let of = |light: &u32| &lights[*light as usize];
-        let sources: Vec<u32> = (0..lights.len() as u32).filter(|i| of(i).is_emitter()).collect();
-        let powers = Steps::new(sources.iter().map(|i| of(i).power(radius)).collect());
-        Self { lights: sources, powers }
-    }
-}
-
 /// The shares of the lights beside the tree and of the tree, which is the last of them.
 struct Shares<'s> {
     scene: &'s Scene,
@@ -211,27 +195,6 @@ impl Scene {
             LightSampler::Power => chooser.powers.as_ref().map_or(0.0, |powers| powers.chance(place)),
             LightSampler::Uniform => 1.0 / chooser.sources.len() as f32,
         }
-    }
-
-    /// A light for a particle, chosen by `u` in `[0, 1)`, which is asked for if there is a choice; `None` if no light sends any.
-    pub fn choose_emitter(&self, u: impl FnOnce() -> f32) -> Option<Chosen> {
-        let emitters = self.emitters();
-        let powers = emitters.powers.as_ref()?;
-        let (place, chance) = powers.choose(if emitters.lights.len() == 1 { 0.0 } else { u() });
-        Some(Chosen { light: emitters.lights[place] as usize, chance })
-    }
-
-    /// The probability with which [`Scene::choose_emitter`] gives `light`.
-    pub fn emitter_chance(&self, light: usize) -> f32 {
-        let emitters = self.emitters();
-        match (&emitters.powers, emitters.lights.binary_search(&(light as u32))) {
-            (Some(powers), Ok(place)) => powers.chance(place),
-            _ => 0.0,
-        }
-    }
-
-    fn emitters(&self) -> &Emitters {
-        self.emitters.get_or_init(|| Emitters::new(&self.lights, self.extent.radius))
     }
 
     /// One of the lights but those around the scene, chosen by `u` in `[0, 1)` for point `p`; `None` if nothing can come

@@ -20,9 +20,7 @@ use durer_model::{
 use durer_scene::Mesh;
 
 use crate::{
-    Media, MediumStack, SampleCx, View,
-    light_sampler::{Emitters, LightChooser},
-    probe::Probe,
+    Media, MediumStack, SampleCx, View, emitters::Emitters, light_sampler::LightChooser, probe::Probe,
 };
 
 /// A thing with a name and a material: what a hit belongs to.

@@ -29,6 +29,8 @@ pub enum Source {
     Parallel,
     /// Directions from infinitely far away, which rays that leave the scene meet.
     Far,
+    /// A medium that glows, where rays along which it is looked for draw places with this density, 1/m.
+    Glow(f32),
 }
 
 /// A particle that leaves a light.
@@ -40,9 +42,9 @@ pub struct Emitted {
     pub d: Vector3,
     /// From what.
     pub source: Source,
-    /// Radiance; of points intensity, of parallel light irradiance.
+    /// Radiance; of points intensity, of parallel light irradiance, of media what a metre adds.
     pub light: Spectrum,
-    /// Density of the place, 1/m²: over the surface, or over the disk through the middle of the [`Extent`] that faces
+    /// Density of the place, 1/m²: over the surface, of media 1/m³ by volume, or over the disk through the middle of the [`Extent`] that faces
     /// light from far away; 1 for points.
     pub pdf_place: f32,
     /// Density of the direction, 1/sr; 1 for parallel light.

@@ -272,10 +272,10 @@ fn sky_power(mean: f32, radius: f32) -> f32 {
 }
 
 /// Density of directions that are spread evenly over the sphere, 1/sr.
-const UNIFORM: f32 = 0.25 / PI;
+pub const UNIFORM: f32 = 0.25 / PI;
 
 /// One of them and its density; `u` in `[0, 1)²`.
-fn uniform_direction(u: Point2) -> (Vector3, f32) {
+pub(crate) fn uniform_direction(u: Point2) -> (Vector3, f32) {
     let r = 2.0 * (u.x * (1.0 - u.x)).sqrt();
     let azimuth = TAU * u.y;
     (Vector3::new(r * cos(azimuth), r * sin(azimuth), 1.0 - 2.0 * u.x), UNIFORM)

@@ -81,13 +81,13 @@ fn mean_of_fading(x: f32) -> f32 {
 }
 
 /// What is left after a way; after an infinite one nothing, but where nothing is lost at all.
-fn left(sigma: Spectrum, way: f32) -> Spectrum {
+pub(super) fn left(sigma: Spectrum, way: f32) -> Spectrum {
     sigma.map(|s| if s > 0.0 { exp(-s * way) } else { 1.0 })
 }
 
 impl Flier {
     /// What is left of light that is sent out so far on the way.
-    fn dimmed(&self, sent: Spectrum, way: f32) -> Spectrum {
+    pub(super) fn dimmed(&self, sent: Spectrum, way: f32) -> Spectrum {
         if sent.is_black() || self.absorption.is_black() { sent } else { sent * left(self.absorption, way) }
     }
 }
@@ -160,7 +160,7 @@ impl Volume {
 
     /// Ratio tracking (Novak, Selle and Jarosz 2014): at each place that is drawn the share is left which the bound has to
     /// spare. What is sent out along the way goes to `send`, and from where.
-    fn ratio(
+    pub(super) fn ratio(
         &self,
         basis: Basis,
         ray: &Ray,

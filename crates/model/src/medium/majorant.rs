@@ -4,6 +4,8 @@
 //! Based Rendering, 4th edition, section 11.4.4.
 use std::cmp::Ordering;
 
+use durer_core::math::Point3;
+
 /// The largest density in each cell of the unit cube.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Majorants {
@@ -38,6 +40,33 @@ impl Majorants {
     /// One cell.
     pub(super) fn even(most: f32) -> Self {
         Self { size: [1; 3], most: vec![most] }
+    }
+
+    /// How many cells along each axis; x changes fastest.
+    pub(super) fn size(&self) -> [usize; 3] {
+        self.size
+    }
+    /// The largest density in a cell.
+    pub(super) fn bound(&self, cell: usize) -> f32 {
+        self.most[cell]
+    }
+    /// The cell of a point of the unit cube; `None` outside.
+    pub(super) fn cell(&self, p: [f32; 3]) -> Option<usize> {
+        if !p.iter().all(|v| (0.0..=1.0).contains(v)) {
+            return None;
+        }
+        let [x, y, z]: [usize; 3] = std::array::from_fn(|axis| {
+            ((p[axis] * self.size[axis] as f32) as usize).min(self.size[axis] - 1)
+        });
+        Some((z * self.size[1] + y) * self.size[0] + x)
+    }
+    /// The point of a cell at these shares of its edges, in the unit cube.
+    pub(super) fn place(&self, cell: usize, within: [f32; 3]) -> Point3 {
+        let [nx, ny, nz] = self.size;
+        let first = [cell % nx, cell / nx % ny, cell / (nx * ny)];
+        let [x, y, z]: [f32; 3] =
+            std::array::from_fn(|axis| (first[axis] as f32 + within[axis]) / [nx, ny, nz][axis] as f32);
+        Point3::new(x, y, z)
     }
 
     /// The way of a ray, given in the space of the cube, from `t0` to `t1`.

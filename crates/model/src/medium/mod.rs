@@ -10,7 +10,9 @@
 //! A new kind of volume is one file here and one line in [`MEDIA`].
 mod cloud;
 mod flight;
+mod glimpse;
 mod glow;
+mod glowing;
 mod grid;
 mod halfspace;
 mod homogeneous;
@@ -34,6 +36,7 @@ use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 pub use self::{
     cloud::Cloud,
     flight::{Draws, End, Flier, Flight, Passage},
+    glowing::Glowing,
     halfspace::HalfSpace,
     homogeneous::Homogeneous,
     inside::Inside,

@@ -42,6 +42,7 @@ pub struct Volume {
     /// The box, in the medium's own space.
     medium_from_cube: DAffine3,
     cube_from_render: Transform,
+    render_from_cube: Transform,
 }
 
 /// What there is at a point.
@@ -69,6 +70,7 @@ impl Volume {
             majorants,
             medium_from_cube: DAffine3::IDENTITY,
             cube_from_render: Transform::IDENTITY,
+            render_from_cube: Transform::IDENTITY,
         }
     }
 
@@ -93,9 +95,9 @@ impl Volume {
     /// Moves the volume from its own space into render space; false if that flattens it.
     #[must_use]
     pub fn place(&mut self, render_from_medium: &DAffine3) -> bool {
-        let render_from_cube = Transform::from_f64(&(*render_from_medium * self.medium_from_cube));
-        self.cube_from_render = render_from_cube.inverse();
-        self.is_even() || render_from_cube.is_invertible()
+        self.render_from_cube = Transform::from_f64(&(*render_from_medium * self.medium_from_cube));
+        self.cube_from_render = self.render_from_cube.inverse();
+        self.is_even() || self.render_from_cube.is_invertible()
     }
 
     /// How it scatters.
@@ -152,6 +154,22 @@ impl Volume {
     pub(super) fn steps(&self, ray: &Ray, span: (f32, f32)) -> Steps<'_> {
         let (o, d) = (self.cube_from_render.point(ray.o), self.cube_from_render.vector(ray.d));
         self.majorants.steps((o.to_array(), d.to_array()), span)
+    }
+    /// The cells of [`Volume::steps`].
+    pub(super) fn majorants(&self) -> &Majorants {
+        &self.majorants
+    }
+    /// Where the unit cube of the cells lies.
+    pub(super) fn render_from_cube(&self) -> &Transform {
+        &self.render_from_cube
+    }
+    /// The cell of a point of render space; `None` outside the box.
+    pub(super) fn cell(&self, p: Point3) -> Option<usize> {
+        self.majorants.cell(self.cube_from_render.point(p).to_array())
+    }
+    /// The bound on absorption and scattering together at a point of render space, 1/m.
+    pub(super) fn bound(&self, basis: Basis, p: Point3) -> f32 {
+        self.cell(p).map_or(0.0, |cell| self.most(basis) * self.majorants.bound(cell))
     }
     /// See [`Volume::steps`].
     pub(super) fn most(&self, basis: Basis) -> f32 {

@@ -3,6 +3,7 @@ use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
     math::{Bounds3, Motion, Point3, Vector3},
 };
+use durer_model::Volume;
 use durer_scene::{CameraDesc, Diagnostics, LightDesc, Location, Node, Params, SceneDesc};
 
 use super::CompileOptions;
@@ -49,13 +50,16 @@ fn look_at(eye: DVec3, at: DVec3) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(right, up, forward), eye)
 }
 
-/// The lights of the description; if it has none, a soft sky and a key light over the camera's left shoulder.
+/// The lights of the description; if it has none and none of its `volumes` glows, a soft sky and a key light over the camera's
+/// left shoulder.
 pub(super) fn lights(
     desc: &SceneDesc,
+    volumes: &[Volume],
     world_from_camera: &DAffine3,
     diagnostics: &mut Diagnostics,
 ) -> Vec<LightDesc> {
-    if desc.shapes.iter().any(|shape| shape.area_light.is_some()) || !desc.lights.is_empty() {
+    let glows = volumes.iter().any(|volume| !volume.is_dark());
+    if glows || desc.shapes.iter().any(|shape| shape.area_light.is_some()) || !desc.lights.is_empty() {
         return desc.lights.clone();
     }
     diagnostics.note(Location::None, "the scene has no light: a neutral studio light was added");

@@ -145,8 +145,9 @@ fn compiled(
     let shutter = view.as_ref().map_or(Interval::point(options.time), |view| view.shutter.interval());
     let world_from_camera = camera.world_from_camera.at(shutter.min.into());
     let origin = origin.unwrap_or(world_from_camera.translation);
-    let all_lights = automatic::lights(desc, &world_from_camera, nodes.diagnostics);
     let render_from_world = DAffine3::from_translation(-origin);
+    let volumes = nodes.volumes(&render_from_world);
+    let all_lights = automatic::lights(desc, &volumes, &world_from_camera, nodes.diagnostics);
     let textures = match (known, new_textures) {
         (Some(kept), _) => Arc::clone(&kept.textures),
         (None, built) => placed(built.unwrap_or_default(), desc, &render_from_world),
@@ -155,7 +156,6 @@ fn compiled(
     materials.push(nodes::default_material(nodes.diagnostics)?);
     let materials: Arc<[Box<dyn Material>]> = materials.into();
     let surfaces = lights::Surfaces { textures: &textures, materials: &materials };
-    let volumes = nodes.volumes(&render_from_world);
     let lights = nodes.lights(&all_lights, (&ground.built, &surfaces), &render_from_world, shutter);
     let placing = geometry::Placing {
         desc,

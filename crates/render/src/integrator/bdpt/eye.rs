@@ -96,11 +96,12 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
             false => cx.scene.closest(cx, &ray.ray, self.walk.probe, id),
         };
         let (mut passed, mut sent) = (Spectrum::ONE, Spectrum::BLACK);
-        if let Some((floated, phase)) = self.walk.float(&mut ray, hit.map_or(f32::INFINITY, |hit| hit.t)) {
+        let t = hit.map_or(f32::INFINITY, |hit| hit.t);
+        if let Some((floated, phase)) = self.walk.float(&mut ray, t) {
+            sent = self.glow(&ray, *flight, (floated.sent, t));
             if P::RECORDS {
-                self.walk.report_floating(&ray, &floated, id);
+                self.walk.report_floating(&ray, &medium::Flight { sent, ..floated }, id);
             }
-            sent = floated.sent * self.own.ways.weight(0, self.vertices.len() + 2, || 1.0);
             if let medium::End::Scattered(t) = floated.end {
                 return self.deflect(&ray, (phase, t, floated.weight), sent, (flight, id));
             }
@@ -170,17 +171,18 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         // The body absorbs what the volume in it does not.
         let left = self.walk.arriving(&ray.media, ray.from, &ray.ray, t) * weight;
         self.walk.probe.local(id, sent);
-        if left.is_black() {
+        let (vertex, onward) = self.walk.deflected(ray, (phase, t), left);
+        let own = self.density(*flight, ray, (vertex.p, 1.0));
+        // A way of no length, by rounding, has no density.
+        if left.is_black() || !own.is_finite() {
             self.walk.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
             return Step::end(sent);
         }
-        let (vertex, onward) = self.walk.deflected(ray, (phase, t), left);
-        let own = self.density(*flight, ray, (vertex.p, 1.0));
         self.go_on(Vertex { own, ..vertex }, Ok(onward), (1.0, sent), (flight, id))
     }
 
     /// Density with which a ray of the walk comes to a place, with the cosine there.
-    fn density(&self, flight: Flight, ray: &PathRay, to: (Point3, f32)) -> f32 {
+    pub(super) fn density(&self, flight: Flight, ray: &PathRay, to: (Point3, f32)) -> f32 {
         let from = self.vertices.last().map_or(self.origin, |before| before.p);
         self.walk.density(flight, (from, &ray.ray), to)
     }

@@ -8,6 +8,7 @@
 //! Light that sharp surfaces both bring to a diffuse one and show it by is found by none of these but from lights with
 //! extent, by luck: a lamp in glass seen in a mirror.
 mod eye;
+mod glow;
 mod joint;
 mod weight;
 

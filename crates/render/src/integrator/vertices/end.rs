@@ -1,14 +1,14 @@
 //! The end of a path at a light.
 use durer_core::math::{Point3, Vector3};
-use durer_model::light::{Leaving, LightCx, LightHit, LightSample, Source};
+use durer_model::light::{Leaving, LightCx, LightHit, LightSample, Source, UNIFORM};
 
 use super::{Vertex, falloff, towards};
-use crate::{LightSampler, Lit, SampleCx};
+use crate::{LightSampler, Lit, SampleCx, emitters::Emitter};
 
-/// A point of a light, as a path ends there.
+/// A point of a light, or of a medium that glows, as a path ends there.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct End {
-    /// Its index in the scene.
+    /// Its index in the scene, among the lights or the volumes.
     pub(in super::super) light: usize,
     /// What it is.
     pub(in super::super) source: Source,
@@ -19,7 +19,7 @@ pub(in super::super) struct End {
 impl End {
     /// Whether rays can meet it.
     pub(in super::super) fn is_met(&self) -> bool {
-        matches!(self.source, Source::Surface(_) | Source::Far)
+        matches!(self.source, Source::Surface(_) | Source::Far | Source::Glow(_))
     }
     /// Whether it has no extent, so that it counts as a light without density.
     pub(in super::super) fn is_sharp(&self) -> bool {
@@ -35,34 +35,52 @@ impl End {
     fn direction(&self, from: &Vertex<'_>, d: Vector3) -> Vector3 {
         match self.source {
             Source::Far | Source::Parallel => d,
-            Source::Point | Source::Surface(_) => towards(from.p, self.p).0,
+            Source::Point | Source::Surface(_) | Source::Glow(_) => towards(from.p, self.p).0,
         }
     }
-    /// A density of directions from `from` to here: by area, or of far light as it is.
+    /// A density of directions from `from` to here: by area, of what glows by volume, or of far light as it is.
     pub(in super::super) fn by_area(&self, pdf: f32, from: Point3) -> f32 {
         match &self.source {
             Source::Surface(hit) => pdf * falloff(from, hit.p, hit.n),
             Source::Far => pdf,
+            Source::Glow(met) => pdf * met / (self.p - from).length_squared(),
             // Nothing comes here by chance.
             Source::Point | Source::Parallel => 0.0,
         }
     }
 
+    /// The density with which a walk meets this place by volume, if it comes here by area with density `pdf`.
+    pub(in super::super) fn by_volume(&self, pdf: f32) -> f32 {
+        if let Source::Glow(met) = self.source { pdf * met } else { pdf }
+    }
+
     /// Densities with which a particle begins here and comes to the vertex `first`, in direction `d` from there: of the
-    /// place of the light by area (of far light of the direction), and of the vertex by area.
+    /// place of the light by area (of what glows by volume, of far light of the direction), and of the vertex by area.
     pub(in super::super) fn begun(&self, cx: &SampleCx<'_>, first: &Vertex<'_>, d: Vector3) -> [f32; 2] {
         let d = self.direction(first, d);
         let at = first.p;
         let (scene, asked) = (cx.scene, LightCx { basis: cx.basis, time: first.time() });
-        let chance = scene.emitter_chance(self.light);
+        let emitter = match self.source {
+            Source::Glow(_) => Emitter::Glow(self.light),
+            _ => Emitter::Light(self.light),
+        };
+        // All who join walks heed media.
+        let chance = scene.emitter_chance(true, emitter);
         if chance == 0.0 {
             return [0.0; 2];
+        }
+        if let Emitter::Glow(volume) = emitter {
+            let places = scene.glowing(volume);
+            let place = places.map_or(0.0, |places| places.density(&scene.volumes[volume], self.p));
+            return [chance * place, first.by_area(UNIFORM, self.p)];
         }
         let leaving = Leaving { p: self.hit().map_or(at, |hit| hit.p), hit: self.hit(), d: -d };
         let [place, direction] = scene.lights[self.light].emission_pdf(&asked, &scene.extent, &leaving);
         match self.source {
             Source::Far | Source::Parallel => [chance * direction, place * first.cos(d)],
-            Source::Point | Source::Surface(_) => [chance * place, first.by_area(direction, self.p)],
+            Source::Point | Source::Surface(_) | Source::Glow(_) => {
+                [chance * place, first.by_area(direction, self.p)]
+            }
         }
     }
 
@@ -75,6 +93,10 @@ impl End {
         d: Vector3,
         by: LightSampler,
     ) -> f32 {
+        if let Source::Glow(_) = self.source {
+            // Nobody asks for it.
+            return 0.0;
+        }
         let lit: Lit = first.lit(wo);
         let chance = cx.scene.light_chance(by, &lit, self.light);
         if chance == 0.0 {
@@ -83,10 +105,17 @@ impl End {
         let asked = LightCx { basis: cx.basis, time: first.time() };
         let light = &cx.scene.lights[self.light];
         match &self.source {
-            Source::Point | Source::Parallel => chance,
+            Source::Point | Source::Parallel | Source::Glow(_) => chance,
             Source::Surface(hit) => chance * light.pdf(&asked, lit.p, hit) * falloff(lit.p, hit.p, hit.n),
             Source::Far => chance * light.pdf_escaped(&asked, lit.p, d),
         }
+    }
+
+    /// A place of a volume that glows, which is met or chosen.
+    pub(in super::super) fn glow(cx: &SampleCx<'_>, volume: usize, p: Point3) -> Self {
+        let places = cx.scene.glowing(volume);
+        let met = places.map_or(0.0, |places| places.met(&cx.scene.volumes[volume], cx.basis, p));
+        Self { light: volume, source: Source::Glow(met), p }
     }
 
     /// What a vertex sampled of a light.

@@ -10,6 +10,7 @@
 //! of all shares: it counts as 1, or as the cosine per solid angle. The chances of passing surfaces that are not there count
 //! as 1 too. Particles are scattered by the adjoint of what eye rays are: `f*(wo, wi) = f(wi, wo)`, which is not symmetric
 //! through interfaces, `|wo n_s| / |wo n_g|` for shading normals (section 5.3.2).
+mod begun;
 mod end;
 mod onward;
 mod particle;

@@ -1,12 +1,11 @@
 //! The way of a particle: from a light through the scene, and from where it scatters to the camera.
 use durer_core::{
-    math::{Point3, Ray, Vector3},
+    math::{Point3, Vector3},
     sampling::Dim,
     spectrum::Spectrum,
 };
 use durer_model::{
     bsdf::Scattered,
-    light::{Emitted, LightCx, Source},
     medium::{self, End},
 };
 
@@ -15,12 +14,13 @@ use super::{
         shading::Shading,
         walk::{Parts, Walk},
     },
-    EMISSION_BRANCH, Flight, LENS_BRANCH, Onward, Place, SCATTER_BRANCH, Vertex, end, kept, straight_on,
-    towards,
+    Flight, LENS_BRANCH, Onward, Place, SCATTER_BRANCH, Vertex,
+    begun::Begun,
+    end, kept, straight_on, towards,
 };
 use crate::{
-    PathRay, Sighted, Splat, media,
-    probe::{Choice, ChosenBy, Probe, RandomNumbers, RayKind, StopReason},
+    PathRay, Sighted, Splat,
+    probe::{Choice, ChosenBy, Probe, RayKind, StopReason},
 };
 
 /// Surfaces passed in a row at most.
@@ -48,7 +48,8 @@ impl Stamina {
 pub(in super::super) struct Particle<'a> {
     /// Where it began.
     pub(in super::super) end: end::End,
-    /// Density of the place where it began, by area (of far light of its direction), with the chance of the light.
+    /// Density of the place where it began, by area (by volume where a medium glows, of far light of its direction), with the
+    /// chance of the light.
     pub(in super::super) own: f32,
     /// Density with which a walk from the first vertex comes there.
     pub(in super::super) other: f32,
@@ -85,57 +86,15 @@ impl<'a, P: Probe> Walk<'a, P> {
         stamina: Stamina,
         id: P::Id,
     ) -> Option<Particle<'a>> {
-        let scene = self.cx.scene;
-        let sampler = eye.sampler.apart(EMISSION_BRANCH);
-        let chosen = scene.choose_emitter(|| sampler.d1(Dim::LightChoice))?;
-        let time = eye.ray.time;
-        let asked = LightCx { basis: self.cx.basis, time };
-        let u = [sampler.d2(Dim::Light), sampler.d2(Dim::Scatter)];
-        let begun = scene.lights[chosen.light].emit(&asked, &scene.extent, u)?;
-        let (own, flight) = match begun.source {
-            Source::Point | Source::Surface(_) => (begun.pdf_place, Flight::Direction(begun.pdf_direction)),
-            Source::Parallel | Source::Far => (begun.pdf_direction, Flight::Place(begun.pdf_place)),
-        };
-        let p = match begun.source {
-            Source::Surface(hit) => hit.p,
-            _ => begun.p,
-        };
-        let end = end::End { light: chosen.light, source: begun.source, p };
-        let mut particle = Particle { end, own: own * chosen.chance, other: 0.0, vertices: stamina.room() };
-        let ray = self.first_ray(eye, &begun, (time, chosen.chance))?;
+        let begun = self.begin(eye, stamina)?;
         if P::RECORDS {
-            self.probe.chosen(&Choice {
-                by: ChosenBy::Light,
-                chance: chosen.chance,
-                pdf: Some(begun.pdf_direction),
-                random: Some(RandomNumbers::two(Dim::Scatter, u[1].to_array())),
-                ..Choice::sharp()
-            });
+            self.probe.chosen(&begun.told);
         }
+        let Begun { mut particle, ray, flight, .. } = begun;
         if ray.throughput.is_finite() {
             self.follow_particle(ray, flight, stamina, &mut particle, id);
         }
         Some(particle)
-    }
-
-    /// The first ray; `None` if nothing comes so far of light from far away.
-    fn first_ray(&self, eye: &PathRay, begun: &Emitted, (time, chance): (f32, f32)) -> Option<PathRay> {
-        let ray = Ray { time, ..Ray::new(begun.p, begun.d) };
-        let is_far = matches!(begun.source, Source::Parallel | Source::Far);
-        let media = match is_far {
-            _ if self.heeds_media => media::at(self.cx.scene, begun.p, time),
-            false => media::around(self.cx.scene, &ray),
-            true => Default::default(),
-        };
-        let sampler = eye.sampler.apart(EMISSION_BRANCH);
-        // Not the first depth: that is for what is seen directly.
-        let first = PathRay { media, depth: 1, ..PathRay::eye(ray, sampler) };
-        let mut power = begun.power() / chance;
-        if is_far && let Some(volume) = self.volume(&media) {
-            let back = PathRay { ray: Ray { d: -ray.d, ..ray }, sampler: sampler.fork(LENS_BRANCH), ..first };
-            power *= self.see(volume, &back, (0.0, f32::INFINITY)).weight;
-        }
-        (!is_far || !power.is_black()).then_some(PathRay { weight: power, throughput: power, ..first })
     }
 
     fn follow_particle(
@@ -196,6 +155,11 @@ impl<'a, P: Probe> Walk<'a, P> {
                 let left = self.arriving(&ray.media, ray.from, &ray.ray, t) * floated.weight;
                 let (vertex, onward) = self.deflected(ray, (phase, t), left);
                 let own = self.density(*flight, (particle.last(), &ray.ray), (vertex.p, 1.0));
+                if !own.is_finite() {
+                    // A way of no length, by rounding: it has no density.
+                    self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+                    return Met::Ended;
+                }
                 let vertex = Vertex { arriving: ray.throughput * left, own, ..vertex };
                 return particle.add(vertex, Some(onward), flight);
             }
