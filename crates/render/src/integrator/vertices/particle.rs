@@ -197,7 +197,7 @@ impl<'a, P: Probe> Walk<'a, P> {
                 let (vertex, onward) = self.deflected(ray, (phase, t), left);
                 let own = self.density(*flight, (particle.last(), &ray.ray), (vertex.p, 1.0));
                 let vertex = Vertex { arriving: ray.throughput * left, own, ..vertex };
-                return particle.add(vertex, Some(onward), flight);
+                return particle.add(vertex, Some(onward.skewed(ray, phase)), flight);
             }
             passed = floated.weight;
         }
