@@ -181,7 +181,8 @@ fn flakes_tables_and_mixtures_are_the_same_from_both_ends() {
     let mixed = "\"string phase\" \"blend\" \"string phases\" [\"henyeygreenstein 0.7\" \"sggx 1 0.03 1 0 0 0\" \"waterdrops\"] \
         \"float phaseweights\" [1 0.5 0.5  0 2 1] \"integer phasesize\" [2 1 1]";
     for (name, phase) in [("cloth", cloth), ("table", table), ("mixed", mixed)] {
-        let even = "\"string type\" \"homogeneous\" \"rgb sigma_a\" [0.05 0.05 0.05] \"rgb sigma_s\" [0.7 0.7 0.7]";
+        let even =
+            "\"string type\" \"homogeneous\" \"rgb sigma_a\" [0.05 0.05 0.05] \"rgb sigma_s\" [0.7 0.7 0.7]";
         let world = format!("{}{LAMP}{THINGS}{FILLED}", fog(&format!("{even} {phase}")));
         agree(name, ("", &world), (1024, Carried::Rgb), [(0.02, 0.1), (0.02, 0.1)]);
     }

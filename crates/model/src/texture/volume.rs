@@ -45,8 +45,9 @@ impl Kind for Volume {
             ParamSpec::new(
                 "values",
                 ParamType::Floats,
-                ParamDefault::Required,
-                "nx ny nz numbers, or three times as many for linear red, green and blue; x changes fastest.",
+                ParamDefault::Unset,
+                "nx ny nz numbers, or three times as many for linear red, green and blue; x changes fastest. Without them it is \
+                 1 everywhere.",
             ),
             along("nx", "Places along x."),
             along("ny", "Places along y."),
@@ -55,17 +56,21 @@ impl Kind for Volume {
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {
         let size = ["nx", "ny", "nz"].map(|name| args.int(name).unsigned_abs() as usize);
-        let values = args.floats("values");
+        let values = if args.is_set("values") { args.floats("values") } else { &[1.0] };
         let grey = values.iter().map(|v| Color::gray(*v)).collect();
         let colored = || values.as_chunks::<3>().0.iter().map(|&rgb| Color { rgb }).collect();
-        let grid = Grid::new(size, grey).or_else(|| {
-            values.len().is_multiple_of(3).then(|| Grid::new(size, colored())).flatten()
-        });
+        let grid = Grid::new(size, grey)
+            .or_else(|| values.len().is_multiple_of(3).then(|| Grid::new(size, colored())).flatten());
         let Some(grid) = grid else {
             let [nx, ny, nz] = size;
             let found = values.len();
             if args.is_sound() {
-                args.error("values", format!("\"values\" has {found} numbers, expected {nx} x {ny} x {nz} or three times as many"));
+                args.error(
+                    "values",
+                    format!(
+                        "\"values\" has {found} numbers, expected {nx} x {ny} x {nz} or three times as many"
+                    ),
+                );
             }
             return None;
         };

@@ -71,7 +71,11 @@ impl Phase {
             [(leaf, _)] => {
                 let (word, values) = leaf.parts();
                 let params = params.string("phase", word);
-                if values.is_empty() { params } else { params.with("phasevalues", ValueType::Float, floats(values.to_vec())) }
+                if values.is_empty() {
+                    params
+                } else {
+                    params.with("phasevalues", ValueType::Float, floats(values.to_vec()))
+                }
             }
             parts => {
                 let texts = parts.iter().map(|(leaf, _)| leaf.text()).collect();
@@ -80,12 +84,16 @@ impl Phase {
         };
         let size = self.flakes.as_ref().map(|grid| grid.size).or(self.weight.as_ref().map(|grid| grid.size));
         let params = match size {
-            Some(size) => params.with("phasesize", ValueType::Integer, Data::Ints(size.map(|n| n as i32).to_vec())),
+            Some(size) => {
+                params.with("phasesize", ValueType::Integer, Data::Ints(size.map(|n| n as i32).to_vec()))
+            }
             None => params,
         };
         let size = size.unwrap_or([1; 3]);
         let params = match &self.flakes {
-            Some(grid) => params.with("phasevalues", ValueType::Float, floats(grid.onto(size, place).concat())),
+            Some(grid) => {
+                params.with("phasevalues", ValueType::Float, floats(grid.onto(size, place).concat()))
+            }
             None => params,
         };
         if self.parts.len() == 1 {
@@ -123,7 +131,8 @@ fn made(world: &mut World<'_>, object: &Rc<Object>) -> Option<Phase> {
             let at = object.get("values").map_or(object.at, |p| p.at);
             let values = told(numbers(&text), at, world.said)?;
             if values.len() < 2 || values.iter().any(|v| *v < 0.0) || values.iter().all(|v| *v == 0.0) {
-                let message = "\"values\" of tabphase: expected two or more numbers, none below 0 and not all 0";
+                let message =
+                    "\"values\" of tabphase: expected two or more numbers, none below 0 and not all 0";
                 world.said.error(at, message);
                 return None;
             }
@@ -165,7 +174,11 @@ fn flakes(world: &mut World<'_>, object: &Object) -> Option<Phase> {
 /// Two phase functions in the order of their names, the second one by the weight.
 fn blend(world: &mut World<'_>, object: &Object) -> Option<Phase> {
     let mut inner: Vec<_> = world.inner(object).into_iter().filter(|(_, o)| o.tag == "phase").collect();
-    world.check(object, &inner.iter().map(|(name, _)| name.as_str()).chain(["weight"]).collect::<Vec<_>>(), &[]);
+    world.check(
+        object,
+        &inner.iter().map(|(name, _)| name.as_str()).chain(["weight"]).collect::<Vec<_>>(),
+        &[],
+    );
     inner.sort_by(|(a, _), (b, _)| a.cmp(b));
     let [(_, first), (_, second)] = inner.as_slice() else {
         world.said.error(object.at, format!("blendphase has {} phases in it, expected 2", inner.len()));
@@ -182,7 +195,8 @@ fn blend(world: &mut World<'_>, object: &Object) -> Option<Phase> {
     for (inner, shares) in [(first, ends.map(|w| 1.0 - w)), (second, ends)] {
         let Phase { parts, weight, flakes } = made(world, inner)?;
         if weight.is_some() || flakes.is_some() && both.flakes.is_some() {
-            let message = "blendphase: one weight of the outermost blend and one \"S\" may be a grid, no more";
+            let message =
+                "blendphase: one weight of the outermost blend and one \"S\" may be a grid, no more";
             world.said.error(inner.at, message);
             return None;
         }

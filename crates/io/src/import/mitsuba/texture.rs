@@ -155,11 +155,7 @@ fn bitmap(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option
 }
 
 /// One cell of four squares is as wide as texture space.
-fn checkerboard(
-    world: &mut World<'_>,
-    object: &Object,
-    value: TextureValue,
-) -> Option<Made> {
+fn checkerboard(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let [a, b, c, e, f, g] = to_uv(world, object);
     if b != 0.0 || e != 0.0 {
         world.once(object.at, "checkerboard: \"to_uv\" turns, which is left out".to_owned());
@@ -178,7 +174,11 @@ fn constant(world: &mut World<'_>, object: &Object, value: TextureValue) -> Opti
     if let Some(Value::Triple(v)) = object.get(theirs).map(|p| &p.value) {
         return Some(("constant", Params::new().rgb("value", v.map(|v| v as f32)), DAffine3::IDENTITY));
     }
-    Some(("constant", part(world, Params::new(), object, (theirs, "value"), (1.0, value)), DAffine3::IDENTITY))
+    Some((
+        "constant",
+        part(world, Params::new(), object, (theirs, "value"), (1.0, value)),
+        DAffine3::IDENTITY,
+    ))
 }
 
 fn scale(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {

@@ -56,7 +56,8 @@ impl<const N: usize> Grid<N> {
         let own_from_there = self.place.inverse() * place;
         let [nx, ny, nz] = size;
         let middle = |i: usize, n: usize| (i as f64 + 0.5) / n as f64;
-        let point = |i: usize| DVec3::new(middle(i % nx, nx), middle(i / nx % ny, ny), middle(i / (nx * ny), nz));
+        let point =
+            |i: usize| DVec3::new(middle(i % nx, nx), middle(i / nx % ny, ny), middle(i / (nx * ny), nz));
         (0..nx * ny * nz).map(|i| self.at(own_from_there.transform_point3(point(i)))).collect()
     }
 }

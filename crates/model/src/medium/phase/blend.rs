@@ -33,7 +33,8 @@ impl Blend {
             format!("{found} numbers, expected {count} for each of {nx} x {ny} x {nz} places")
         };
         let grid = |i: usize| {
-            Grid::new(size, weights.iter().skip(i).step_by(count).copied().collect()).map(|grid| grid.clamped(true))
+            Grid::new(size, weights.iter().skip(i).step_by(count).copied().collect())
+                .map(|grid| grid.clamped(true))
         };
         let parts = parts.into_iter().enumerate().map(|(i, phase)| grid(i).map(|grid| (phase, grid)));
         let parts = parts.collect::<Option<Vec<_>>>().ok_or_else(wrong)?;

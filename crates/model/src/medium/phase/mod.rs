@@ -23,8 +23,8 @@ use durer_core::{
     spectrum::{Basis, Spectrum},
 };
 
-pub use self::{henyey_greenstein::HenyeyGreenstein, turn::Turn};
 use self::{blend::Blend, drops::Drops, sggx::Flakes, table::Table};
+pub use self::{henyey_greenstein::HenyeyGreenstein, turn::Turn};
 
 /// How particles of a volume scatter. Densities are by solid angle, 1/sr.
 #[derive(Clone, Debug, PartialEq)]

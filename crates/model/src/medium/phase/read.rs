@@ -13,7 +13,9 @@ fn part(text: &str, values: &[f32], size: [usize; 3]) -> Result<Phase, String> {
     let mut words = text.split_whitespace();
     let word = words.next().unwrap_or_default();
     let own = words.map(|w| w.parse::<f32>().ok().filter(|v| v.is_finite()));
-    let own = own.collect::<Option<Vec<f32>>>().ok_or_else(|| format!("\"{text}\": expected a word and numbers"))?;
+    let own = own
+        .collect::<Option<Vec<f32>>>()
+        .ok_or_else(|| format!("\"{text}\": expected a word and numbers"))?;
     let many = if own.is_empty() { values } else { &own };
     match (word, own.as_slice()) {
         ("henyeygreenstein", []) => Ok(Phase::HenyeyGreenstein(HenyeyGreenstein::new(0.0))),

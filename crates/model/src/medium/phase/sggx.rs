@@ -103,7 +103,8 @@ impl Flakes {
         let mean = places.iter().fold(Spread::default(), |sum, v| sum + *v * (1.0 / places.len() as f32));
         let whole = count.is_multiple_of(6).then(|| Grid::new(size, places)).flatten();
         let [nx, ny, nz] = size;
-        let spread = whole.ok_or(format!("{count} numbers, expected six for each of {nx} x {ny} x {nz} places"))?;
+        let spread =
+            whole.ok_or(format!("{count} numbers, expected six for each of {nx} x {ny} x {nz} places"))?;
         let mean_cos = mean.root().map_or(0.0, |root| mean_cos(&root));
         Ok(Self { spread: spread.clamped(true), cube_from_render: Transform::IDENTITY, mean_cos })
     }
@@ -141,18 +142,17 @@ impl Flakes {
     }
 }
 
-/// Over all directions from which light comes.
+/// Over all directions from which light comes, at points of Roberts' sequence in four dimensions ("The Unreasonable
+/// Effectiveness of Quasirandom Sequences", 2018).
 fn mean_cos(root: &DMat3) -> f32 {
-    const STEPS: u32 = 16;
-    let middle = |i: u32, n: u32| (i as f32 + 0.5) / n as f32;
+    const POINTS: u32 = 1 << 15;
+    const STEPS: [f64; 4] =
+        [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_038_009, 0.538_597_257_226_120_4];
     let mut sum = 0.0;
-    for i in 0..STEPS * STEPS {
-        let z = 2.0 * middle(i / STEPS, STEPS) - 1.0;
-        let from = turned(Vector3::new(0.0, 0.0, 1.0), z, middle(i % STEPS, STEPS));
-        for j in 0..64 {
-            let u = Point2::new(middle(j / 8, 8), middle(j % 8, 8));
-            sum += f64::from(mirrored(root, from, u).dot(from));
-        }
+    for i in 0..POINTS {
+        let [z, around, u, v] = STEPS.map(|step| (0.5 + step * f64::from(i)).fract() as f32);
+        let from = turned(Vector3::new(0.0, 0.0, 1.0), 2.0 * z - 1.0, around);
+        sum += f64::from(mirrored(root, from, Point2::new(u, v)).dot(from));
     }
-    (sum / f64::from(STEPS * STEPS * 64)) as f32
+    (sum / f64::from(POINTS)) as f32
 }

@@ -195,7 +195,9 @@ fn weights_are_those_of_the_place() {
 
 #[test]
 fn what_is_no_phase_function_is_told() {
-    assert!(Table::new(&[1.0]).is_none() && Table::new(&[0.0; 3]).is_none() && Table::new(&[1.0, -1.0]).is_none());
+    assert!(
+        Table::new(&[1.0]).is_none() && Table::new(&[0.0; 3]).is_none() && Table::new(&[1.0, -1.0]).is_none()
+    );
     for (size, values, part) in [
         ([1; 3], vec![1.0; 6], "no ellipsoid"),
         ([1; 3], vec![f32::NAN; 6], "no ellipsoid"),

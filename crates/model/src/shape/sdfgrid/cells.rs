@@ -68,7 +68,11 @@ fn zero(cubic: [f64; 4], [mut a, mut b]: [f64; 2], below: bool) -> f64 {
     let mut t = 0.5 * (a + b);
     for _ in 0..100 {
         let f = at(cubic, t);
-        if (f < 0.0) == below && f != 0.0 { a = t } else { b = t }
+        if (f < 0.0) == below && f != 0.0 {
+            a = t
+        } else {
+            b = t
+        }
         // Newton's step where it stays between the two, else the middle.
         let slope = (3.0 * cubic[3] * t + 2.0 * cubic[2]) * t + cubic[1];
         let step = t - f / slope;
@@ -124,7 +128,16 @@ impl Cells {
     }
     fn cell(&self, cell: [usize; 3]) -> Cell {
         let [a, b, c, d, e, f, g, h] = self.corners(cell);
-        Cell([a, b - a, c - a, e - a, a - b - c + d, a - c - e + g, a - b - e + f, b + c + e + h - a - d - f - g])
+        Cell([
+            a,
+            b - a,
+            c - a,
+            e - a,
+            a - b - c + d,
+            a - c - e + g,
+            a - b - e + f,
+            b + c + e + h - a - d - f - g,
+        ])
     }
     /// The cell of a point, which may lie beyond the grid by rounding.
     fn cell_of(&self, p: DVec3) -> [usize; 3] {
@@ -168,7 +181,13 @@ impl Cells {
         let Line { o, d } = line;
         let (low, high) = (-o / d, (self.end() - o) / d);
         let inside = |axis: usize| d[axis] != 0.0 || o[axis] >= 0.0 && o[axis] <= self.end()[axis];
-        let cut = |axis: usize| if d[axis] == 0.0 { [f64::MIN, f64::MAX] } else { [low[axis].min(high[axis]), low[axis].max(high[axis])] };
+        let cut = |axis: usize| {
+            if d[axis] == 0.0 {
+                [f64::MIN, f64::MAX]
+            } else {
+                [low[axis].min(high[axis]), low[axis].max(high[axis])]
+            }
+        };
         let slabs = [0, 1, 2].map(cut);
         let mut t = slabs.iter().fold(from, |t, slab| t.max(slab[0]));
         let to = slabs.iter().fold(to, |t, slab| t.min(slab[1]));

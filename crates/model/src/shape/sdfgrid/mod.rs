@@ -41,7 +41,8 @@ impl SdfGrid {
         let cells = Cells::new(size, distances)?;
         let scale = cells.end() / (high - low);
         let ends = cells.filled().flat_map(|cell| [corner(cell), corner(cell) + 1.0]);
-        let (least, most) = ends.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+        let (least, most) =
+            ends.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
         let [least, most] = [least, most].map(|p| low + p / scale);
         // Rounded outwards.
         let bounds = Bounds3::new(
@@ -98,7 +99,8 @@ impl Shape for SdfGrid {
         let p = Point3::from_f64(exact);
         Surface {
             p,
-            p_error: (p - Point3::ZERO).abs() * gamma(2) + Vector3::from_f64((self.low.abs() + exact.abs()) * 1e-12),
+            p_error: (p - Point3::ZERO).abs() * gamma(2)
+                + Vector3::from_f64((self.low.abs() + exact.abs()) * 1e-12),
             n_g: Normal3::from_f64(n),
             n_s: Normal3::from_f64(n_s),
             uv: Point2::new(0.0, 0.0),
@@ -143,8 +145,10 @@ impl Kind for SdfGrid {
             along("nx", "Distances along x."),
             along("ny", "Distances along y."),
             along("nz", "Distances along z."),
-            ParamSpec::new("p0", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "A corner of the box.").unit("m"),
-            ParamSpec::new("p1", ParamType::Point3, ParamDefault::Triple([1.0; 3]), "The opposite corner.").unit("m"),
+            ParamSpec::new("p0", ParamType::Point3, ParamDefault::Triple([0.0; 3]), "A corner of the box.")
+                .unit("m"),
+            ParamSpec::new("p1", ParamType::Point3, ParamDefault::Triple([1.0; 3]), "The opposite corner.")
+                .unit("m"),
             ParamSpec::new(
                 "normals",
                 ParamType::Choice(&["smooth", "analytic"]),
@@ -173,7 +177,10 @@ impl Kind for SdfGrid {
         }
         let made = Self::new(size, values.to_vec(), [low, high], args.text("normals") == "analytic");
         if made.is_none() {
-            args.error("distance", "there is no surface: nowhere is a distance below 0 beside one that is not");
+            args.error(
+                "distance",
+                "there is no surface: nowhere is a distance below 0 beside one that is not",
+            );
         }
         made.map(Geometry::shape)
     }

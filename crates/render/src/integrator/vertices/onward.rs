@@ -4,7 +4,10 @@ use durer_core::{
     sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
-use durer_model::{bsdf::Scattered, medium::{Phase, Turn}};
+use durer_model::{
+    bsdf::Scattered,
+    medium::{Phase, Turn},
+};
 
 use super::{
     super::{

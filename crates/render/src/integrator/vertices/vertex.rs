@@ -6,7 +6,10 @@ use durer_core::{
     math::{Point3, Ray, Vector3, error::offset_ray_origin},
     spectrum::{Basis, Spectrum},
 };
-use durer_model::{light::LightSample, medium::{Phase, Turn}};
+use durer_model::{
+    light::LightSample,
+    medium::{Phase, Turn},
+};
 
 use super::super::{
     shading::Shading,
