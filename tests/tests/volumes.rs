@@ -78,6 +78,34 @@ fn a_slab_scatters_once_as_the_closed_form_says_e18() {
     }
 }
 
+/// The same slab, by each phase function's share of light turned back by 120 degrees and on by 60, as a multiple of what goes
+/// evenly to all sides.
+#[test]
+fn a_slab_scatters_as_tables_flakes_and_mixtures_say() {
+    // Values 0.075 and 0.65 of a mean of 0.45.
+    let table = ("table", "\"float phasevalues\" [0.3 0 0.2 2]", [0.075 / 0.45, 0.65 / 0.45]);
+    // Normals halfway between, with m^T S^-1 m of 3.25 and 1.75, sqrt det S of 0.5; sigma is sqrt 0.8125.
+    let mirrored = |m: f64| 1.0 / (0.5 * m * m * 0.8125f64.sqrt());
+    let flakes = ("sggx", "\"float phasevalues\" [1 1 0.25 0 0 0]", [mirrored(3.25), mirrored(1.75)]);
+    let mixed = |part: f64| 0.25 * 0.9375 + 0.75 * part;
+    let blend = (
+        "blend",
+        "\"string phases\" [\"rayleigh\" \"table\"] \"float phaseweights\" [1 3] \"float phasevalues\" [0.3 0 0.2 2]",
+        table.2.map(mixed),
+    );
+    for (word, params, factors) in [table, flakes, blend] {
+        let mist = fog(&format!(
+            "\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [1 1 1] \"string phase\" \"{word}\" {params}"
+        ));
+        for ((z, even), factor) in [(-1, 0.050_410), (1, 0.037_011)].into_iter().zip(factors) {
+            let sun = format!("LightSource \"distant\" \"point3 from\" [0 0 {z}] \"point3 to\" [0 0 0]\n");
+            let world = mist.clone() + &sun + &slab(2.0, 3.0);
+            let found = seen("1.7320508 0 1", "\"integer maxdepth\" 1", &world, 4096);
+            near(found, even * factor, 6e-3, word);
+        }
+    }
+}
+
 #[test]
 fn lanes_that_scatter_differently_are_each_right_e18() {
     let sun = "LightSource \"distant\" \"point3 from\" [0 0 -1] \"point3 to\" [0 0 0]\n";

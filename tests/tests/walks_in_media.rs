@@ -173,6 +173,21 @@ fn wavelengths_see_the_same_fog_smoke_and_drops() {
     }
 }
 
+/// How flakes send light depends on the direction that it comes from: paths from lamps are weighed for that.
+#[test]
+fn flakes_tables_and_mixtures_are_the_same_from_both_ends() {
+    let cloth = "\"string phase\" \"sggx\" \"float phasevalues\" [0.04 1 0.3  0.05 0 0.1]";
+    let table = "\"string phase\" \"table\" \"float phasevalues\" [0.3 0 0.2 2]";
+    let mixed = "\"string phase\" \"blend\" \"string phases\" [\"henyeygreenstein 0.7\" \"sggx 1 0.03 1 0 0 0\" \"waterdrops\"] \
+        \"float phaseweights\" [1 0.5 0.5  0 2 1] \"integer phasesize\" [2 1 1]";
+    for (name, phase) in [("cloth", cloth), ("table", table), ("mixed", mixed)] {
+        let even =
+            "\"string type\" \"homogeneous\" \"rgb sigma_a\" [0.05 0.05 0.05] \"rgb sigma_s\" [0.7 0.7 0.7]";
+        let world = format!("{}{LAMP}{THINGS}{FILLED}", fog(&format!("{even} {phase}")));
+        agree(name, ("", &world), (1024, Carried::Rgb), [(0.02, 0.1), (0.02, 0.1)]);
+    }
+}
+
 /// What glows is seen by itself, and by what it lights.
 #[test]
 fn what_glows_is_seen() {

@@ -14,6 +14,7 @@ const SHAPES: &[&str] = &[
     r#"<shape type="bsplinecurve"><string name="filename" value="strands.txt"/></shape>"#,
     r#"<shape type="linearcurve"><string name="filename" value="strands.txt"/></shape>"#,
     r#"<shape type="sdfgrid"/>"#,
+    r#"<shape type="sdfgrid"><string name="filename" value="distances.vol"/></shape>"#,
 ];
 
 /// What stands in a sphere.
@@ -52,6 +53,7 @@ const INSIDE: &[&str] = &[
     r#"<bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="mesh_attribute"><string name="name" value="vertex_color"/></texture></bsdf>"#,
     r#"<bsdf type="diffuse"><texture name="reflectance" type="volume"/></bsdf>"#,
+    r#"<bsdf type="diffuse"><texture name="reflectance" type="volume"><volume name="volume" type="gridvolume"><string name="filename" value="grid.vol"/></volume></texture></bsdf>"#,
     r#"<emitter type="area"><rgb name="radiance" value="3"/></emitter>"#,
     r#"<emitter type="area"><spectrum name="radiance" type="blackbody"><float name="temperature" value="3000"/></spectrum></emitter>"#,
     r#"<emitter type="directionalarea"/>"#,
@@ -63,7 +65,11 @@ const MEDIA: &[&str] = &[
     r#"<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="constvolume"><float name="value" value="2"/></volume></medium>"#,
     r#"<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="gridvolume"><string name="filename" value="grid.vol"/></volume><volume name="albedo" type="gridvolume"><string name="filename" value="grid.vol"/></volume></medium>"#,
     r#"<medium name="interior" type="homogeneous"><phase type="rayleigh"/></medium>"#,
-    r#"<medium name="interior" type="homogeneous"><phase type="tabphase"/></medium>"#,
+    r#"<medium name="interior" type="homogeneous"><phase type="tabphase"><string name="values" value="1, 0.5, 2"/></phase></medium>"#,
+    r#"<medium name="interior" type="homogeneous"><phase type="sggx"><volume name="S" type="constvolume"><string name="value" value="1, 1, 0.1, 0, 0, 0"/></volume></phase></medium>"#,
+    r#"<medium name="interior" type="homogeneous"><phase type="sggx"><volume name="S" type="gridvolume"><string name="filename" value="flakes.vol"/></volume></phase></medium>"#,
+    r#"<medium name="interior" type="homogeneous"><phase type="blendphase"><float name="weight" value="0.3"/><phase name="a" type="hg"/><phase name="b" type="rayleigh"/></phase></medium>"#,
+    r#"<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="gridvolume"><string name="filename" value="grid.vol"/></volume><phase type="blendphase"><volume name="weight" type="gridvolume"><string name="filename" value="grid.vol"/></volume><phase name="a" type="isotropic"/><phase name="b" type="hg"/></phase></medium>"#,
 ];
 
 /// What stands in the scene.
@@ -110,6 +116,15 @@ pub(crate) fn write(out: &mut String) {
     let values = [0.0f32, 0.0, 0.0, 1.0, 1.0, 1.0, 0.5].map(f32::to_le_bytes).concat();
     std::fs::write(bench.path("grid.vol"), [b"VOL\x03".as_slice(), &header, &values].concat())
         .expect("written");
+    let volume = |name: &str, header: [u32; 5], values: &[f32]| {
+        let header = header.map(u32::to_le_bytes).concat();
+        let corners = [0.0f32, 0.0, 0.0, 1.0, 1.0, 1.0].map(f32::to_le_bytes).concat();
+        let values: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        std::fs::write(bench.path(name), [b"VOL\x03".as_slice(), &header, &corners, &values].concat())
+            .expect("written");
+    };
+    volume("distances.vol", [1, 2, 2, 2, 1], &[-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0]);
+    volume("flakes.vol", [1, 1, 1, 1, 6], &[1.0, 1.0, 0.1, 0.0, 0.0, 0.0]);
     let scene = |inside: &str| format!("<scene version=\"3.0.0\">{inside}</scene>");
     let shapes = SHAPES.iter().map(|s| (*s, scene(s)));
     let inside = INSIDE.iter().map(|s| (*s, scene(&format!("<shape type=\"sphere\">{s}</shape>"))));

@@ -102,7 +102,7 @@ impl Writer<'_> {
                 [corner, corner + a, corner + a + b, corner + b].into_iter().for_each(|p| put(p, n));
                 mesh.indices.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
             }
-            Outline::Triangles(triangles) => {
+            Outline::Triangles(triangles) | Outline::Near(triangles) => {
                 for (at, [a, b, c]) in (first..).step_by(3).zip(triangles) {
                     let n = (b - a).cross(c - a).normalize_or_zero();
                     [a, b, c].into_iter().for_each(|p| put(p, n));

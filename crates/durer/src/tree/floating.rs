@@ -36,7 +36,7 @@ pub struct Scattered {
     pub sigma_a: Rgb,
     /// Scattering coefficient there, 1/m.
     pub sigma_s: Rgb,
-    /// How directions are drawn: `henyey-greenstein`, `waterdrops` or `rayleigh`.
+    /// How directions are drawn: `henyey-greenstein`, `waterdrops`, `rayleigh`, `table`, `sggx` or `blend`.
     pub phase: String,
     /// Mean cosine of the deflection.
     pub g: Number,

@@ -78,6 +78,10 @@ impl Kind for Cloud {
             Matter::SIGMA_S,
             Matter::G,
             Phase::WHICH,
+            Phase::VALUES,
+            Phase::PARTS,
+            Phase::WEIGHTS,
+            Phase::SIZE,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {

@@ -6,7 +6,7 @@ use std::ops::{Add, Mul};
 
 /// A grid; x changes fastest.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Grid<T> {
+pub(crate) struct Grid<T> {
     size: [usize; 3],
     values: Vec<T>,
     /// The outermost values go on.
@@ -14,24 +14,24 @@ pub(super) struct Grid<T> {
 }
 
 /// What can be mixed.
-pub(super) trait Mixed: Copy + Default + Add<Output = Self> + Mul<f32, Output = Self> {}
+pub(crate) trait Mixed: Copy + Default + Add<Output = Self> + Mul<f32, Output = Self> {}
 impl<T: Copy + Default + Add<Output = T> + Mul<f32, Output = T>> Mixed for T {}
 
 impl<T: Mixed> Grid<T> {
     /// As many values as the size says; `None` if there are more or fewer.
-    pub(super) fn new(size: [usize; 3], values: Vec<T>) -> Option<Self> {
+    pub(crate) fn new(size: [usize; 3], values: Vec<T>) -> Option<Self> {
         let [nx, ny, nz] = size;
         let count = nx.checked_mul(ny)?.checked_mul(nz)?;
         (count == values.len() && count > 0).then_some(Self { size, values, clamped: false })
     }
     /// The same, with values that go on where `clamped`.
-    pub(super) fn clamped(self, clamped: bool) -> Self {
+    pub(crate) fn clamped(self, clamped: bool) -> Self {
         Self { clamped, ..self }
     }
     pub(super) fn size(&self) -> [usize; 3] {
         self.size
     }
-    pub(super) fn values(&self) -> &[T] {
+    pub(crate) fn values(&self) -> &[T] {
         &self.values
     }
     fn value(&self, [x, y, z]: [i64; 3]) -> T {
@@ -59,7 +59,7 @@ impl<T: Mixed> Grid<T> {
         most
     }
     /// The value at a point of the unit cube.
-    pub(super) fn at(&self, p: [f32; 3]) -> T {
+    pub(crate) fn at(&self, p: [f32; 3]) -> T {
         between(self.size, p, |index| self.value(index))
     }
 }

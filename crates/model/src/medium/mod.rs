@@ -33,6 +33,7 @@ use durer_core::{
 };
 use durer_scene::{Args, Entry, ParamDefault, ParamSpec, ParamType};
 
+pub(crate) use self::grid::Grid;
 pub use self::{
     cloud::Cloud,
     flight::{Draws, End, Flier, Flight, Passage},
@@ -41,7 +42,7 @@ pub use self::{
     homogeneous::Homogeneous,
     inside::Inside,
     nanovdb::NanoVdb,
-    phase::{HenyeyGreenstein, Phase},
+    phase::{HenyeyGreenstein, Phase, Turn},
     rgbgrid::RgbGrid,
     uniformgrid::UniformGrid,
     volume::Volume,

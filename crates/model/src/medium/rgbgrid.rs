@@ -123,6 +123,10 @@ impl Kind for RgbGrid {
             Matter::SCALE,
             Matter::G,
             Phase::WHICH,
+            Phase::VALUES,
+            Phase::PARTS,
+            Phase::WEIGHTS,
+            Phase::SIZE,
         ],
     };
     fn build(args: &mut Args<'_>) -> Option<Self::Output> {

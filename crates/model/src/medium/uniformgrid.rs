@@ -97,6 +97,10 @@ impl Kind for UniformGrid {
             Matter::SCALE,
             Matter::G,
             Phase::WHICH,
+            Phase::VALUES,
+            Phase::PARTS,
+            Phase::WEIGHTS,
+            Phase::SIZE,
             Glow::COLOR,
             ParamSpec::new(
                 "Lescale",

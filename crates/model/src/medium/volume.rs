@@ -97,7 +97,8 @@ impl Volume {
     pub fn place(&mut self, render_from_medium: &DAffine3) -> bool {
         self.render_from_cube = Transform::from_f64(&(*render_from_medium * self.medium_from_cube));
         self.cube_from_render = self.render_from_cube.inverse();
-        self.is_even() || self.render_from_cube.is_invertible()
+        self.phase.place(&self.cube_from_render);
+        self.is_even() && self.phase.is_even() || self.render_from_cube.is_invertible()
     }
 
     /// How it scatters.

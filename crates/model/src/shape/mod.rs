@@ -14,6 +14,7 @@ mod mesh;
 mod plane;
 mod plymesh;
 pub mod polygon;
+mod sdfgrid;
 mod sphere;
 mod trianglemesh;
 
@@ -35,6 +36,7 @@ pub use mesh::mesh_surface;
 pub use plane::Plane;
 pub use plymesh::PlyMesh;
 pub use polygon::Polygon;
+pub use sdfgrid::SdfGrid;
 pub use sphere::Sphere;
 pub use trianglemesh::TriangleMesh;
 
@@ -101,7 +103,9 @@ pub enum Outline {
     Triangles(Vec<[DVec3; 3]>),
     /// Points of it can be chosen by [`Shape::by_area`] only.
     Curved,
-    /// No point of it can be chosen.
+    /// Triangles near it, of which the outside is as of those that cover it; no point of it can be chosen.
+    Near(Vec<[DVec3; 3]>),
+    /// It goes on without end: no point of it can be chosen.
     Infinite,
 }
 
@@ -133,6 +137,7 @@ pub const SHAPES: &[Entry<Geometry>] = &[
     Entry::of::<Plane>(),
     Entry::of::<PlyMesh>(),
     Entry::of::<Polygon>(),
+    Entry::of::<SdfGrid>(),
     Entry::of::<Sphere>(),
     Entry::of::<TriangleMesh>(),
 ];

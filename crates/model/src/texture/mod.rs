@@ -18,6 +18,7 @@ mod noise;
 mod scale;
 mod value;
 mod vertexcolor;
+mod volume;
 mod windy;
 
 use std::{cell::RefCell, fmt::Debug};
@@ -45,6 +46,7 @@ pub use mix::Mix;
 pub use scale::Scale;
 pub use value::Value;
 pub use vertexcolor::VertexColor;
+pub use volume::Volume;
 pub use windy::Windy;
 
 /// Where a texture is looked up.
@@ -145,6 +147,7 @@ pub const COLOR_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<Mix<ColorInput>>(),
     Entry::of::<Scale<ColorInput>>(),
     Entry::of::<VertexColor>(),
+    Entry::of::<Volume>(),
     Entry::of::<Windy>(),
     Entry::of::<Wrinkled>(),
 ];
@@ -162,6 +165,7 @@ pub const FLOAT_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<Mix<FloatInput>>(),
     Entry::of::<Scale<FloatInput>>(),
     Entry::of::<VertexColor>(),
+    Entry::of::<Volume>(),
     Entry::of::<Windy>(),
     Entry::of::<Wrinkled>(),
 ];

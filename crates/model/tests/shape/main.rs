@@ -8,6 +8,7 @@ mod plymesh;
 mod polygon;
 mod registry;
 mod scale;
+mod sdfgrid;
 mod sphere;
 
 use std::sync::Arc;

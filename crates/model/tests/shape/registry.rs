@@ -36,6 +36,7 @@ fn samples(kind: &str) -> Vec<Params> {
             Params::new(),
             Params::new().float("radius", 0.7).float("zmin", -0.2).float("zmax", 0.6).float("phimax", 200.0),
         ],
+        "sdfgrid" => vec![super::sdfgrid::ball(9), super::sdfgrid::ball(12).string("normals", "analytic")],
         "disk" => vec![
             Params::new(),
             Params::new().float("height", -0.3).float("innerradius", 0.4).float("phimax", 90.0),

@@ -4,6 +4,7 @@ mod filtered;
 mod image;
 mod mapping;
 mod noise;
+mod volume;
 use std::sync::Arc;
 
 use durer_core::{

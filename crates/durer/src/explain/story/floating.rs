@@ -44,7 +44,11 @@ impl Teller<'_> {
     fn phase(&self, floating: &Floating) -> &'static str {
         match self.prepared.scene.volume_of(floating.fill).map(Volume::phase) {
             Some(Phase::Drops(_)) => "as drops of water do,",
-            _ => "by the phase function of Henyey and Greenstein",
+            Some(Phase::Rayleigh) => "as molecules of air do (Rayleigh),",
+            Some(Phase::Table(_)) => "as a table of cosines says,",
+            Some(Phase::Flakes(_)) => "as flakes do that mirror (SGGX),",
+            Some(Phase::Blend(_)) => "as several kinds of particles do side by side,",
+            Some(Phase::HenyeyGreenstein(_)) | None => "by the phase function of Henyey and Greenstein",
         }
     }
 

@@ -60,7 +60,7 @@ pub(super) fn tessellated(piece: &Piece<'_>, bounds: &Bounds3) -> Option<(Soup, 
             let positions = vec![corner, corner + a, corner + a + b, corner + b];
             Some((Soup { positions, indices: vec![[0, 1, 2], [0, 2, 3]] }, false))
         }
-        Outline::Triangles(triangles) => {
+        Outline::Triangles(triangles) | Outline::Near(triangles) => {
             let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
             Some((Soup { positions: triangles.into_iter().flatten().collect(), indices }, false))
         }

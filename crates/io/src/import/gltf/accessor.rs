@@ -202,7 +202,10 @@ impl<'b, 'a> Accessor<'b, 'a> {
         let size = announced.size();
         let Announced { element, count, component, columns, rows } = announced;
         let lanes = columns * rows;
-        let base = match (buffers.column(index)?, element.get("bufferView")?) {
+        let column = buffers.column(index)?;
+        // Strips are unpacked to triangles.
+        let count = column.map_or(count, |bytes| bytes.len() / size);
+        let base = match (column, element.get("bufferView")?) {
             (Some(bytes), _) => Some(Strided { bytes, stride: size }),
             (None, Some(_)) => Some(strided(document, buffers, &element, count, size)?),
             (None, None) => None,

@@ -17,7 +17,7 @@ use super::{
 };
 
 /// The name of the extension.
-const NAME: &str = "KHR_draco_mesh_compression";
+pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 /// What all streams of a file may unpack to, by their length: what is the same all over packs to next to nothing.
 const BEST_RATIO: u64 = 1 << 12;
 /// Unpacked bytes that any file may promise.
@@ -35,6 +35,8 @@ struct Job<'b, 'a> {
     bytes: Checked<&'b [u8]>,
     /// Accessor of the indices.
     indices: Column<'a>,
+    /// It announces a strip, not three corners for each triangle.
+    is_strip: bool,
     /// Accessors of attributes, and the numbers that the stream knows these by.
     attributes: Vec<(Column<'a>, u32)>,
 }
@@ -87,10 +89,10 @@ impl<'b, 'a> Job<'b, 'a> {
             primitive
                 .fault("a primitive that is packed by Draco needs \"indices\", which say how many there are")
         })?;
-        if primitive.index_or("mode", 4)? != 4 {
-            return Err(
-                primitive.fault_at("mode", "of what is packed by Draco durer reads triangles (4) only")
-            );
+        let mode = primitive.index_or("mode", 4)?;
+        if !matches!(mode, 4 | 5) {
+            let message = "what is packed by Draco is triangles (4) or a strip (5)";
+            return Err(primitive.fault_at("mode", message));
         }
         let (asked, known) = (primitive.required("attributes")?, element.required("attributes")?);
         let mut attributes = Vec::new();
@@ -102,7 +104,8 @@ impl<'b, 'a> Job<'b, 'a> {
             attributes.push((Column::of(document, &reference)?, id));
         }
         let bytes = buffers.view(document, &element.required("bufferView")?)?.bytes;
-        Ok(Self { bytes, indices: Column::of(document, &indices)?, attributes, element })
+        let indices = Column::of(document, &indices)?;
+        Ok(Self { bytes, indices, is_strip: mode == 5, attributes, element })
     }
 
     /// The bytes that its accessors announce.
@@ -118,7 +121,7 @@ impl<'b, 'a> Job<'b, 'a> {
         all.map(|(column, id)| {
             let mesh = unpacked.as_ref().map_err(Fault::clone);
             let bytes = mesh.and_then(|mesh| match id {
-                None => indices(mesh, &column.announced),
+                None => indices(mesh, &column.announced, self.is_strip),
                 Some(id) => attribute(mesh, id, &column.announced),
             });
             (column.index, bytes)
@@ -128,7 +131,8 @@ impl<'b, 'a> Job<'b, 'a> {
 
     fn unpacked(&self) -> Checked<Mesh> {
         let mut limits = DecodeLimits::default();
-        limits.max_faces = self.indices.announced.count as u64 / 3;
+        let corners = self.indices.announced.count as u64;
+        limits.max_faces = if self.is_strip { corners.saturating_sub(2) } else { corners / 3 };
         limits.max_decoded_bytes = self.announced().saturating_mul(UNASKED).max(1 << 20);
         let mut buffer = DecoderBuffer::new(self.bytes.clone()?).with_limits(limits);
         let mut mesh = Mesh::new();
@@ -144,10 +148,11 @@ impl<'b, 'a> Job<'b, 'a> {
     }
 }
 
-/// The corners of all triangles.
-fn indices(mesh: &Mesh, announced: &Announced<'_>) -> Checked<Vec<u8>> {
+/// The corners of all triangles. The stream has them one by one also where the file announces a strip of them, in which there
+/// may be more that join its parts.
+fn indices(mesh: &Mesh, announced: &Announced<'_>, is_strip: bool) -> Checked<Vec<u8>> {
     let corners = mesh.faces().as_flattened();
-    announced.expect(corners.len(), 1)?;
+    announced.expect(if is_strip { announced.count } else { corners.len() }, 1)?;
     let mut bytes = Vec::with_capacity(corners.len() * announced.component.size());
     corners.iter().for_each(|corner| announced.component.put_index(corner.0, &mut bytes));
     Ok(bytes)

@@ -6,6 +6,7 @@ use durer_scene::{Data, MediumDesc, MediumRef, Params, ValueType};
 
 use super::{
     object::Object,
+    phase,
     volume::{self, Grid},
     world::{World, node},
 };
@@ -27,7 +28,7 @@ fn made(world: &mut World<'_>, object: &Object) -> Option<MediumRef> {
         world.note(prop.at, format!("\"{}\" has no effect", prop.name));
     }
     let scale = object.number_or("scale", 1.0, world.said) as f32;
-    let phase = phase(world, object);
+    let phase = phase::phase(world, object);
     let (kind, params, place) = match object.plugin.as_str() {
         "homogeneous" => ("homogeneous", even(world, object)?, DAffine3::IDENTITY),
         "heterogeneous" => uneven(world, object)?,
@@ -36,50 +37,19 @@ fn made(world: &mut World<'_>, object: &Object) -> Option<MediumRef> {
             return None;
         }
     };
-    let params = match phase {
-        Phase::Mean(g) => params.float("g", g),
-        Phase::Rayleigh => params.string("phase", "rayleigh"),
-    };
-    let params = params.float("scale", scale);
+    // What has no bounds lies where its phase function does.
+    let place = if kind == "homogeneous" { phase.place().unwrap_or(place) } else { place };
+    if phase.place().is_some_and(|own| own != place) {
+        let message = "phase function and medium lie in different boxes: the grid of the first is looked up in the second";
+        world.note(object.at, message.to_owned());
+    }
+    let params = phase.with(params, place).float("scale", scale);
     let media = &mut world.desc.media;
     let used = |name: &str| media.iter().any(|m| m.name == name);
     let free = !object.id.is_empty() && !used(&object.id);
     let name = if free { object.id.clone() } else { format!("medium {}", media.len()) };
     media.push(MediumDesc { name, node: node(kind, params, object.at), world_from_medium: place });
     Some(MediumRef::new(media.len() as u32 - 1))
-}
-
-/// How particles scatter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    /// By the mean cosine.
-    Mean(f32),
-    Rayleigh,
-}
-
-fn phase(world: &mut World<'_>, medium: &Object) -> Phase {
-    let even = Phase::Mean(0.0);
-    let Some(object) = world.of_tag(medium, "phase").into_iter().next() else { return even };
-    match object.plugin.as_str() {
-        word @ ("isotropic" | "rayleigh") => {
-            world.check(&object, &[], &[]);
-            if word == "rayleigh" { Phase::Rayleigh } else { even }
-        }
-        "hg" => {
-            world.check(&object, &["g"], &[]);
-            Phase::Mean(object.number_or("g", 0.8, world.said).clamp(-0.999, 0.999) as f32)
-        }
-        "blendphase" | "tabphase" | "sggx" => {
-            let message =
-                format!("phase \"{}\": light is scattered evenly in all directions instead", object.plugin);
-            world.once(object.at, message);
-            even
-        }
-        other => {
-            world.said.unknown(object.at, "phase", other, ["isotropic", "hg", "rayleigh"]);
-            even
-        }
-    }
 }
 
 /// A coefficient that is the same everywhere.
@@ -121,14 +91,14 @@ fn even(world: &mut World<'_>, object: &Object) -> Option<Params> {
 /// A grid of the extinction, and what the albedo is at its points.
 fn uneven(world: &mut World<'_>, object: &Object) -> Option<(&'static str, Params, DAffine3)> {
     let sigma_t = match world.named(object, "sigma_t") {
-        Some(volume) => volume::grid(world, &volume)?,
+        Some(volume) => volume::colors(world, &volume)?,
         None => {
             let values = vec![volume::even(world, object, "sigma_t").unwrap_or([1.0; 3])];
             Grid { size: [1; 3], values, place: DAffine3::IDENTITY }
         }
     };
     let albedo = match world.named(object, "albedo") {
-        Some(volume) => volume::grid(world, &volume)?,
+        Some(volume) => volume::colors(world, &volume)?,
         None => {
             let values = vec![volume::even(world, object, "albedo").unwrap_or([0.75; 3])];
             Grid { size: [1; 3], values, place: sigma_t.place }

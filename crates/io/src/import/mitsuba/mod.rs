@@ -17,6 +17,7 @@ mod medium;
 mod mesh;
 mod metal;
 mod object;
+mod phase;
 mod principled;
 mod prop;
 mod reader;

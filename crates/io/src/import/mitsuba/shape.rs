@@ -5,11 +5,12 @@ use durer_core::{
     glam::{DAffine3, DMat3, DVec3},
     math::Motion,
 };
-use durer_scene::{MaterialRef, MediumInterface, Node, Params, ShapeDesc, ShapeSource};
+use durer_scene::{Data, MaterialRef, MediumInterface, Node, Params, ShapeDesc, ShapeSource, ValueType};
 
 use super::{
     bsdf, curve, emitter, medium, mesh,
     object::Object,
+    volume,
     world::{Plugin, World, node},
 };
 
@@ -55,6 +56,12 @@ const SHAPES: &[Plugin<Build>] = &[
     },
     Plugin { name: "bsplinecurve", takes: STRANDS, lacks: &[], build: curve::strands },
     Plugin { name: "linearcurve", takes: STRANDS, lacks: &[], build: curve::strands },
+    Plugin {
+        name: "sdfgrid",
+        takes: &["filename", "normals", "to_world", "flip_normals"],
+        lacks: &[],
+        build: distances,
+    },
 ];
 
 /// What strands have.
@@ -179,6 +186,16 @@ fn sphere(world: &mut World<'_>, object: &Object) -> Option<Parts> {
     let radius = above_zero(world, object, "radius") as f32;
     let source = of_node("sphere", Params::new().float("radius", radius), object);
     Some(vec![(source, DAffine3::from_translation(center))])
+}
+
+/// A surface between the distances of a volume, whose outermost values lie on the sides of the unit cube.
+fn distances(world: &mut World<'_>, object: &Object) -> Option<Parts> {
+    let (volume::Grid { size, values, .. }, _) = volume::file::<1>(world, object)?;
+    let normals = object.word("normals", &["smooth", "analytic"], world.said);
+    let params = Params::new().string("normals", normals);
+    let params = params.with("distance", ValueType::Float, Data::Floats(values.concat()));
+    let params = ["nx", "ny", "nz"].into_iter().zip(size).fold(params, |p, (name, n)| p.int(name, n as i32));
+    Some(vec![(of_node("sdfgrid", params, object), DAffine3::IDENTITY)])
 }
 
 fn disk(_: &mut World<'_>, object: &Object) -> Option<Parts> {

@@ -6,11 +6,14 @@ use durer_scene::{Data, Params, TextureDesc, TextureValue, ValueType};
 
 use super::{
     object::{Object, Value},
+    volume,
     world::{Plugin, Role, Shade, World, node, with_shade},
 };
 
+/// Kind, parameters and place of a texture.
+type Made = (&'static str, Params, DAffine3);
 /// Makes the node of a texture.
-type Build = fn(&mut World<'_>, &Object, TextureValue) -> Option<(&'static str, Params)>;
+type Build = fn(&mut World<'_>, &Object, TextureValue) -> Option<Made>;
 
 /// The textures.
 pub(super) const TEXTURES: &[Plugin<Build>] = &[
@@ -25,6 +28,7 @@ pub(super) const TEXTURES: &[Plugin<Build>] = &[
     Plugin { name: "rawconstant", takes: &["value"], lacks: &[], build: constant },
     Plugin { name: "uniform", takes: &["value"], lacks: &[], build: constant },
     Plugin { name: "srgb", takes: &["color"], lacks: &[], build: constant },
+    Plugin { name: "volume", takes: &["volume"], lacks: &[], build: volume },
     Plugin { name: "scale", takes: &["texture", "scale"], lacks: &[], build: scale },
 ];
 
@@ -40,18 +44,13 @@ pub(super) fn name(world: &mut World<'_>, object: &Rc<Object>, value: TextureVal
             return None;
         }
         let build = world.plugin(TEXTURES, object)?;
-        let (kind, params) = build(world, object, value)?;
+        let (kind, params, world_from_texture) = build(world, object, value)?;
         let textures = &mut world.desc.textures;
         let used = |name: &str| textures.iter().any(|t| t.name == name && t.value == value);
         let free = !object.id.is_empty() && !used(&object.id);
         let name = if free { object.id.clone() } else { format!("{kind} {}", textures.len()) };
         let node = node(kind, params, object.at);
-        textures.push(TextureDesc {
-            name: name.clone(),
-            value,
-            node,
-            world_from_texture: DAffine3::IDENTITY,
-        });
+        textures.push(TextureDesc { name: name.clone(), value, node, world_from_texture });
         Some(name)
     });
     world.textures.insert(key, made.clone());
@@ -123,7 +122,7 @@ fn to_uv(world: &mut World<'_>, object: &Object) -> [f64; 6] {
     [a, -b, b + c, e, -f, f + g]
 }
 
-fn bitmap(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<(&'static str, Params)> {
+fn bitmap(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let path = world.path(object, "filename")?;
     let [a, b, c, e, f, g] = to_uv(world, object);
     let filter = object.word("filter_type", &["bilinear", "nearest", "trilinear", "ewa"], world.said);
@@ -152,15 +151,11 @@ fn bitmap(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option
     if value == TextureValue::Float {
         params = params.string("channel", "luminance");
     }
-    Some(("imagemap", params))
+    Some(("imagemap", params, DAffine3::IDENTITY))
 }
 
 /// One cell of four squares is as wide as texture space.
-fn checkerboard(
-    world: &mut World<'_>,
-    object: &Object,
-    value: TextureValue,
-) -> Option<(&'static str, Params)> {
+fn checkerboard(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let [a, b, c, e, f, g] = to_uv(world, object);
     if b != 0.0 || e != 0.0 {
         world.once(object.at, "checkerboard: \"to_uv\" turns, which is left out".to_owned());
@@ -171,20 +166,24 @@ fn checkerboard(
     // Of numbers Mitsuba exchanges the two (`eval_1` in its checkerboard.cpp), of colours it does not.
     let (first, second) = if value == TextureValue::Float { ("tex2", "tex1") } else { ("tex1", "tex2") };
     let params = part(world, params, object, ("color0", first), (0.4, value));
-    Some(("checkerboard", part(world, params, object, ("color1", second), (0.2, value))))
+    Some(("checkerboard", part(world, params, object, ("color1", second), (0.2, value)), DAffine3::IDENTITY))
 }
 
-fn constant(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<(&'static str, Params)> {
+fn constant(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let theirs = if object.plugin == "srgb" { "color" } else { "value" };
     if let Some(Value::Triple(v)) = object.get(theirs).map(|p| &p.value) {
-        return Some(("constant", Params::new().rgb("value", v.map(|v| v as f32))));
+        return Some(("constant", Params::new().rgb("value", v.map(|v| v as f32)), DAffine3::IDENTITY));
     }
-    Some(("constant", part(world, Params::new(), object, (theirs, "value"), (1.0, value))))
+    Some((
+        "constant",
+        part(world, Params::new(), object, (theirs, "value"), (1.0, value)),
+        DAffine3::IDENTITY,
+    ))
 }
 
-fn scale(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<(&'static str, Params)> {
+fn scale(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let params = part(world, Params::new(), object, ("texture", "tex"), (1.0, value));
-    Some(("scale", world.number(params, object, ("scale", "scale"))))
+    Some(("scale", world.number(params, object, ("scale", "scale")), DAffine3::IDENTITY))
 }
 
 /// The value of a texture that has others.
@@ -209,7 +208,7 @@ fn part(
 }
 
 /// Colours of vertices or faces, which a mesh brings: the first three numbers are the colour, the fourth is the number.
-fn attribute(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<(&'static str, Params)> {
+fn attribute(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
     let name = object.text("name", world.said).unwrap_or_default().to_owned();
     if !name.starts_with("vertex_") && !name.starts_with("face_") {
         let message = format!("mesh_attribute: \"{name}\" begins with neither \"vertex_\" nor \"face_\"");
@@ -219,5 +218,16 @@ fn attribute(world: &mut World<'_>, object: &Object, value: TextureValue) -> Opt
     let scale = object.number_or("scale", 1.0, world.said) as f32;
     let params = Params::new().float("scale", scale);
     let _ = value;
-    Some(("vertexcolor", params))
+    Some(("vertexcolor", params, DAffine3::IDENTITY))
+}
+
+/// A volume that is looked up where surfaces are.
+fn volume(world: &mut World<'_>, object: &Object, value: TextureValue) -> Option<Made> {
+    let Some(inner) = world.named(object, "volume") else {
+        let params = part(world, Params::new(), object, ("volume", "value"), (0.75, value));
+        return Some(("constant", params, DAffine3::IDENTITY));
+    };
+    let volume::Grid { size: [nx, ny, nz], values, place } = volume::colors(world, &inner)?;
+    let params = Params::new().with("values", ValueType::Float, Data::Floats(values.concat()));
+    Some(("volume", params.int("nx", nx as i32).int("ny", ny as i32).int("nz", nz as i32), place))
 }

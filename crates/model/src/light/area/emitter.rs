@@ -54,7 +54,7 @@ impl Emitter {
     ) -> Result<Self, &'static str> {
         let form = Form::of(geometry).ok_or(match geometry {
             Geometry::Strands(_) => "a curve cannot be an area light",
-            _ => "an infinite shape cannot be an area light",
+            _ => "a shape without end, or between distances (sdfgrid), cannot be an area light",
         })?;
         let first = track.at(f32::NEG_INFINITY);
         let areas = form.areas(&track);

@@ -31,14 +31,14 @@ pub(super) enum Piece {
 }
 
 impl Piece {
-    /// The pieces of a shape; `None` if it is infinite.
+    /// The pieces of a shape; `None` if no point of it can be chosen.
     pub(super) fn of(shape: &Arc<dyn Shape>) -> Option<Vec<Self>> {
         Some(match shape.outline() {
             Outline::Sphere { radius } => vec![Self::Sphere { radius, shape: Arc::clone(shape) }],
             Outline::Parallelogram(corner, edges) => vec![Self::Parallelogram(corner, edges)],
             Outline::Triangles(triangles) => triangles.into_iter().map(Self::Triangle).collect(),
             Outline::Curved => vec![Self::Curved(Arc::clone(shape))],
-            Outline::Infinite => return None,
+            Outline::Near(_) | Outline::Infinite => return None,
         })
     }
 

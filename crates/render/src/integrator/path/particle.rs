@@ -6,7 +6,7 @@
 use durer_core::{math::Point3, sampling::Dim, spectrum::Spectrum};
 use durer_model::{
     light::LightCx,
-    medium::{End, Phase},
+    medium::{End, Phase, Turn},
 };
 
 use super::{
@@ -96,10 +96,10 @@ impl<P: Probe> Follow<'_, P> {
         let Some(sample) = scene.lights[chosen.light].sample(&cx, lit.p, &choosing) else {
             return Spectrum::BLACK;
         };
-        let (phase, cos) = (met.phase, ray.ray.d.dot(sample.wi));
-        let f = phase.density(cos);
+        let (phase, turn) = (met.phase, Turn { p: met.p, from: ray.ray.d, to: sample.wi });
+        let f = phase.density(&turn);
         let mis = sample.pdf.map_or(1.0, |pdf| share(pdf * chosen.chance, f));
-        let scattered = met.weight * phase.tint(&cx.basis, cos);
+        let scattered = met.weight * phase.tint(&cx.basis, &turn);
         let weight = scattered * (f * mis / chosen.chance);
         if weight.is_black() {
             return Spectrum::BLACK;

@@ -4,7 +4,10 @@ use durer_core::{
     sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
-use durer_model::{bsdf::Scattered, medium::Phase};
+use durer_model::{
+    bsdf::Scattered,
+    medium::{Phase, Turn},
+};
 
 use super::{
     super::{
@@ -49,6 +52,16 @@ impl Onward {
         let told = P::RECORDS.then(|| chosen(s, scattered, (sampler, s.pdf(d, s.wo))));
         let child = scattered_on(parent, (s, crossing), scattered, weight);
         Self { child, kind, d, pdf: scattered.pdf, told }
+    }
+    /// The same of a particle of light, which `phase` scattered as `parent` came.
+    pub(super) fn skewed(mut self, parent: &PathRay, phase: &Phase) -> Self {
+        let skew = phase.skew(&Turn { p: self.child.ray.o, from: parent.ray.d, to: self.d });
+        self.child.weight = self.child.weight * skew;
+        self.child.throughput = self.child.throughput * skew;
+        if let Some(f) = self.told.as_mut().and_then(|told| told.f.as_mut()) {
+            *f = *f * skew;
+        }
+        self
     }
     /// Whether it brings anything that is a number.
     pub(super) fn brings_something(&self) -> bool {

@@ -161,7 +161,7 @@ impl<'a, P: Probe> Walk<'a, P> {
                     return Met::Ended;
                 }
                 let vertex = Vertex { arriving: ray.throughput * left, own, ..vertex };
-                return particle.add(vertex, Some(onward), flight);
+                return particle.add(vertex, Some(onward.skewed(ray, phase)), flight);
             }
             passed = floated.weight;
         }

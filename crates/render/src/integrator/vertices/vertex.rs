@@ -6,7 +6,10 @@ use durer_core::{
     math::{Point3, Ray, Vector3, error::offset_ray_origin},
     spectrum::{Basis, Spectrum},
 };
-use durer_model::{light::LightSample, medium::Phase};
+use durer_model::{
+    light::LightSample,
+    medium::{Phase, Turn},
+};
 
 use super::super::{
     shading::Shading,
@@ -51,6 +54,10 @@ impl<'a> Vertex<'a> {
     pub(in super::super) fn wo(&self) -> Vector3 {
         -self.path.ray.d
     }
+    /// From the ray that came here to unit direction `to`.
+    fn turn(&self, to: Vector3) -> Turn {
+        Turn { p: self.p, from: self.path.ray.d, to }
+    }
     /// The moment, in seconds.
     pub(in super::super) fn time(&self) -> f32 {
         self.path.ray.time
@@ -66,7 +73,7 @@ impl<'a> Vertex<'a> {
     pub(in super::super) fn pdf(&self, from: Vector3, to: Vector3) -> f32 {
         match &self.place {
             Place::Surface(s, _) => s.pdf(from, to),
-            Place::Particle(phase) => phase.density(-from.dot(to)),
+            Place::Particle(phase) => phase.density(&Turn { p: self.p, from: -from, to }),
         }
     }
     /// A density of directions from `from` to here by area, or by volume.
@@ -109,7 +116,7 @@ impl<'a> Vertex<'a> {
                 let wi = s.frame.to_local(d);
                 (s.radiance((s.wo_local, wi), is_first), wi.z.abs())
             }
-            Place::Particle(phase) => (self.arriving * deflected(phase, basis, self.path.ray.d.dot(d)), 1.0),
+            Place::Particle(phase) => (self.arriving * deflected(phase, basis, &self.turn(d)), 1.0),
         }
     }
     /// What of a particle's power here is radiance towards unit direction `d`, per projected solid angle; `is_first` if
@@ -121,7 +128,8 @@ impl<'a> Vertex<'a> {
                 let tilt = s.wo_local.z.abs() / s.surface.n_g.dot(s.wo).abs();
                 self.arriving * s.radiance((s.frame.to_local(d), s.wo_local), is_first) * tilt
             }
-            Place::Particle(phase) => self.arriving * deflected(phase, basis, self.path.ray.d.dot(d)),
+            // Radiance goes the other way.
+            Place::Particle(phase) => self.arriving * deflected(phase, basis, &self.turn(d).back()),
         }
     }
     /// The end of a ray that comes from direction `d`: this side of a surface by more than rounding.
@@ -155,7 +163,7 @@ impl<'a> Vertex<'a> {
     }
 }
 
-/// What a particle sends on by this cosine of the deflection, 1/sr.
-fn deflected(phase: &Phase, basis: &Basis, cos: f32) -> Spectrum {
-    phase.tint(basis, cos) * phase.density(cos)
+/// What a particle sends on by this turn, 1/sr.
+fn deflected(phase: &Phase, basis: &Basis, turn: &Turn) -> Spectrum {
+    phase.tint(basis, turn) * phase.density(turn)
 }

@@ -7,7 +7,7 @@ use durer_core::{
 
 use durer_model::{
     Medium, Volume,
-    medium::{End, Flier, Flight, Phase},
+    medium::{End, Flier, Flight, Phase, Turn},
 };
 
 use super::{
@@ -105,11 +105,12 @@ impl<'a, P: Probe> Walk<'a, P> {
         branch: u32,
     ) -> PathRay {
         let u = parent.sampler.fork(branch).d2(Dim::Scatter);
-        let d = phase.deflected(parent.ray.d, u);
-        let cos = parent.ray.d.dot(d);
-        let weight = weight * phase.tint(&self.cx.basis, cos);
+        let from = parent.ray.d;
+        let d = phase.deflected((p, from), u);
+        let turn = Turn { p, from, to: d };
+        let weight = weight * phase.tint(&self.cx.basis, &turn);
         let ray = Ray { time: parent.ray.time, ..Ray::new(p, d) };
-        let density = Some(phase.density(cos));
+        let density = Some(phase.density(&turn));
         PathRay { density, is_blurred: true, ..parent.child((p, ray), weight, branch) }
     }
 

@@ -1,5 +1,5 @@
 //! Against Descartes' angles in closed form, and sums.
-use durer_core::math::{Point2, Vector3};
+use durer_core::math::{Point2, Point3, Vector3};
 
 use super::{super::Phase, *};
 
@@ -76,20 +76,21 @@ fn rays_mirrored_at_the_outside_go_where_fresnel_and_spheres_say() {
 
 #[test]
 fn drawn_deflections_have_their_density() {
-    let phase = Phase::Drops(Drops::new().into());
+    let drops = Drops::new();
+    let phase = Phase::Drops(drops.clone().into());
     let w = Vector3::new(0.36, 0.48, 0.8);
     let n = 200_000u32;
     let (mut counts, mut mean) = ([0.0f64; 36], 0.0);
     for i in 0..n {
         let u = Point2::new((i as f32 + 0.5) / n as f32, (i as f32 * 0.618_034).fract());
-        let d = phase.deflected(w, u);
+        let d = phase.deflected((Point3::ZERO, w), u);
         let cos = d.dot(w).clamp(-1.0, 1.0);
         counts[((f64::from(cos).acos().to_degrees() / 5.0) as usize).min(35)] += 1.0 / f64::from(n);
         mean += f64::from(cos) / f64::from(n);
     }
     for (i, count) in counts.iter().enumerate() {
         let expected: f64 = (i * 100..(i + 1) * 100)
-            .map(|step| f64::from(angles(step) * phase.density(0.5 * (edge(step) + edge(step + 1)))))
+            .map(|step| f64::from(angles(step) * drops.density(0.5 * (edge(step) + edge(step + 1)))))
             .sum();
         assert!((count - expected).abs() < 3e-4, "{} degrees: {count}, expected {expected}", i * 5);
     }
