@@ -20,8 +20,9 @@ mod voxels;
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
-    AnimationDesc, CameraDesc, Crop, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface,
-    MediumRef, NamedNode, Node, OptionsDesc, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
+    AnimationDesc, CameraDesc, Crop, FilmDesc, LayersDesc, LightDesc, MaterialRef, MediumDesc,
+    MediumInterface, MediumRef, NamedNode, Node, OptionsDesc, SceneDesc, ShapeDesc, ShapeSource, Space,
+    TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};

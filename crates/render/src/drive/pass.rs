@@ -123,6 +123,7 @@ mod tests {
             filter: Filter::pixel(),
             speed: 1.0,
             sensor: Default::default(),
+            layers: None,
         }
     }
 
