@@ -123,6 +123,7 @@ mod tests {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu,
             dpdv,
             vertex_color: [1.0; 4],

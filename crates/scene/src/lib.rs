@@ -12,6 +12,7 @@ mod diag;
 mod mesh;
 mod nearest;
 mod params;
+mod ptex;
 mod schema;
 mod span;
 mod tensors;
@@ -28,6 +29,7 @@ pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
+pub use ptex::{Ptex, PtexFace, PtexShape};
 pub use schema::{
     Args, ColorInput, Entry, FloatInput, Kind, LightInput, Missing, ParamDefault, ParamSpec, ParamType,
     Schema, TextureNames, find,

@@ -58,6 +58,7 @@ fn at(u: f32, v: f32) -> TextureAt {
     TextureAt {
         uv: Point2::new(u, v),
         second_uv: Point2::new(u, v),
+        face: 0,
         p: Point3::ZERO,
         n: Normal3::new(0.0, 0.0, 1.0),
         vertex_color: [1.0; 4],
