@@ -159,14 +159,3 @@ fn the_cameras_shutter_is_used_if_something_moves_and_options_win() {
     let still = ZOO.replace("ActiveTransform EndTime", "ActiveTransform All");
     assert_eq!(scene(&still, &small(Options::default())).scene.view.shutter.interval(), interval(0.0, 0.0));
 }
-
-#[test]
-fn what_is_not_supported_yet_is_a_warning_with_a_count() {
-    let text = "WorldBegin\nTexture \"a\" \"spectrum\" \"ptex\"\nTexture \"b\" \"spectrum\" \"ptex\"\nShape \"sphere\"\n";
-    let mut imported = import(text);
-    assert!(durer::prepare(&mut imported, &Options::default()).is_some());
-    let said: Vec<_> = imported.diagnostics.iter().map(|d| d.message.as_str()).collect();
-    for what in ["\"ptex\" is not supported yet: drawn as \"constant\" (2 of them)", "studio light"] {
-        assert!(said.iter().any(|m| m.contains(what)), "{what}: {said:?}");
-    }
-}

@@ -138,8 +138,7 @@ pub(crate) fn run(args: &Args, frames: Frames) -> anyhow::Result<Exit> {
     };
     let interrupt = Interrupt::listen("keeping the frames that are whole")?;
     let scene = &args.sample.scene.scene;
-    let threads = args.threads.map(|n| n as usize);
-    let wishes = durer::Options { threads, ..sample_at(args, first).wishes() };
+    let wishes = args.wishes(&sample_at(args, first), &plan.pictures);
     let start = Instant::now();
     let imported = load::import(scene, &wishes);
     let failure = load::failure(&imported, &wishes);
@@ -162,6 +161,7 @@ pub(crate) fn run(args: &Args, frames: Frames) -> anyhow::Result<Exit> {
         if number == 0 {
             args.check_crop(&prepared)?;
             args.warn_about_looks(&prepared);
+            args.tell_of_layers(&sequence.imported.desc, &plan.pictures);
         }
         let left = (plan.frames.len() - number) as u64;
         shoot.bar.expect(prepared.job().steps().saturating_mul(left));

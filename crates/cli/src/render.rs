@@ -7,7 +7,7 @@ use durer::{
     film::{Tile, ToneMap},
     image::{PictureFormat, replace_file},
     picture::{Look, Picture},
-    scene::SceneDesc,
+    scene::{LayersDesc, SceneDesc},
 };
 
 use crate::{
@@ -41,7 +41,9 @@ Files: .png is developed (exposure, tone map, sRGB) to 8 bits; .exr holds linear
 floats as they are. Its channels: R, G, B; depth.Z (metres along the camera's
 axis) and depth.length (along the ray); normal.X, .Y, .Z (world space); uv.U, .V;
 id (1 is the first object); cost.primitives and cost.boxes (tests of a ray). All but
-those of cost are 0 where nothing was hit.
+those of cost are 0 where nothing was hit. Of a scene with the film gbuffer there are also
+P.X, .Y, .Z, N.*, Ns.*, u, v, dzdx, dzdy, Albedo.*, Variance.* and RelativeVariance.*; with
+the film spectral S0.374,688nm and so on, the light of each part of the spectrum.
 
 stdout holds the paths of the files, a line each, or with --stats=json an object:
 version 1; durer, scene, integrator, width, height, spp, seed, threads, outputs,
@@ -88,7 +90,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     let scene = &args.sample.scene.scene;
     let outputs = destinations(&args.output, scene)?;
     let interrupt = Interrupt::listen("writing the picture so far")?;
-    let wishes = durer::Options { threads: args.threads.map(|n| n as usize), ..args.sample.wishes() };
+    let wishes = args.wishes(&args.sample, &outputs);
     let loaded = load(scene, &wishes);
     report::print(scene, &loaded.imported, &args.talk);
     let Some(prepared) = &loaded.prepared else {
@@ -96,6 +98,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     };
     args.check_crop(prepared)?;
     args.warn_about_looks(prepared);
+    args.tell_of_layers(&loaded.imported.desc, &outputs);
 
     let bar = Bar::new(prepared.job().steps(), args.talk.quiet);
     let start = Instant::now();
@@ -123,12 +126,31 @@ impl Taken<'_> {
     /// On its way into files.
     pub(crate) fn picture<'p>(&'p self, scene: &'p str) -> Picture<'p> {
         let Self { desc: _, prepared, rendered, seconds } = self;
-        let (pixels, render, interrupted) = (rendered.film.pixels(), seconds.render, rendered.cancelled);
-        Picture { scene, prepared, pixels, render, interrupted }
+        let (pixels, layers) = (rendered.film.pixels(), rendered.film.layers());
+        let (render, interrupted) = (seconds.render, rendered.cancelled);
+        Picture { scene, prepared, pixels, layers, render, interrupted }
     }
 }
 
 impl Args {
+    /// What is wished for of pictures in such files.
+    pub(crate) fn wishes(&self, sample: &SampleOptions, outputs: &[Destination]) -> durer::Options {
+        let threads = self.threads.map(|n| n as usize);
+        durer::Options { threads, layers: holds_layers(outputs), ..sample.wishes() }
+    }
+
+    /// Says where the rest of the picture would go.
+    pub(crate) fn tell_of_layers(&self, desc: &SceneDesc, outputs: &[Destination]) {
+        let what = match desc.film.layers {
+            Some(LayersDesc::Surfaces(_)) => "places, normals and more of what is seen",
+            Some(LayersDesc::Buckets { .. }) => "light by its wavelength",
+            None => return,
+        };
+        if !self.talk.quiet && !holds_layers(outputs) {
+            tell(&format!("note: the scene's film also asks for {what}: -o FILE.exr holds all of it"));
+        }
+    }
+
     /// Writes the files of a picture and says how it went.
     pub(crate) fn finish(&self, taken: &Taken<'_>, outputs: &[Destination]) -> anyhow::Result<Exit> {
         let scene = &self.sample.scene.scene;
@@ -285,6 +307,11 @@ impl Args {
             tell(&stats.summary());
         }
     }
+}
+
+/// Whether one of the files has room for more than colours.
+fn holds_layers(outputs: &[Destination]) -> bool {
+    outputs.iter().any(|output| output.format == PictureFormat::Exr)
 }
 
 fn write(picture: &Picture<'_>, to: &Destination, look: Look) -> anyhow::Result<()> {

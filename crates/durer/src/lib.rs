@@ -19,6 +19,7 @@ pub mod doctor;
 mod environment;
 pub mod explain;
 mod glb;
+mod layers;
 mod options;
 mod particles;
 pub mod picture;

@@ -60,6 +60,8 @@ pub struct Options {
     pub shadows: Option<Shadows>,
     /// Whether rays carry colours or wavelengths.
     pub carried: Option<Carried>,
+    /// Whether what a film `gbuffer` or `spectral` keeps beside colours is kept: for OpenEXR files.
+    pub layers: bool,
     /// Camera, by name or index.
     pub camera: Option<String>,
     /// A picture that surrounds the scene and lights it, instead of the scene's own surroundings or the automatic light.

@@ -3,7 +3,7 @@ use std::{error::Error, time::Duration};
 
 use crate::{
     Output, Prepared, Show, View,
-    film::{DepthRange, Developed, Pixel, ToneMap, develop, develop_data, develop_survey},
+    film::{DepthRange, Developed, Layer, Layers, Pixel, ToneMap, develop, develop_data, develop_survey},
     image::{ExrPicture, ExrValue, NamedChannel, Packing, PictureFormat, encode_exr, encode_png},
 };
 
@@ -24,6 +24,8 @@ pub struct Picture<'a> {
     pub prepared: &'a Prepared,
     /// The film's pixels.
     pub pixels: Vec<Pixel>,
+    /// What the film holds beside colours.
+    pub layers: Vec<Layer>,
     /// The time it took.
     pub render: Duration,
     /// It is not complete.
@@ -107,10 +109,13 @@ impl Picture<'_> {
             name: (*name).to_owned(),
             values: self.pixels.iter().map(|p| p.mean()[index]).collect(),
         };
+        let beside =
+            |Layer { name, values }: &Layer| NamedChannel { name: name.clone(), values: values.clone() };
+        let colors = channel_names(self.output()).iter().enumerate().map(channel);
         ExrPicture {
             width: self.view().width,
             height: self.view().height,
-            channels: channel_names(self.output()).iter().enumerate().map(channel).collect(),
+            channels: colors.chain(self.layers.iter().map(beside)).collect(),
             attributes: self.story(),
         }
     }
@@ -130,6 +135,11 @@ impl Picture<'_> {
         ];
         if self.interrupted {
             story.push(("durer.interrupted", ExrValue::Integer(1)));
+        }
+        if matches!(self.view().layers, Some(Layers::Buckets(_))) && !self.layers.is_empty() {
+            // Of the layout for spectral images, which has no unit for light that was scaled.
+            story.push(("spectralLayoutVersion", text("1.0")));
+            story.push(("emissiveUnits", text("W.m^-2.sr^-1")));
         }
         story.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
     }

@@ -18,7 +18,7 @@ use durer_render::{
 use durer_scene::{Diagnostics, Location, Missing, Node, SceneDesc};
 
 use crate::{
-    Options, environment, particles, settings,
+    Options, environment, layers, particles, settings,
     transport::{integrator_node, registered_word, rules},
 };
 
@@ -99,8 +99,9 @@ pub(crate) fn prepared(
     compile: impl FnOnce(&CompileOptions, &mut Diagnostics) -> Option<Scene>,
 ) -> Option<Prepared> {
     let integrator = compile::integrator(integrator_node, diagnostics);
-    let size = picture_size(desc, options, diagnostics);
-    let (width, height) = size.unwrap_or(DEFAULT_SIZE);
+    let asked = picture_size(desc, options, diagnostics);
+    let size = asked.unwrap_or(DEFAULT_SIZE);
+    let (width, height) = size;
     let compile_options = CompileOptions {
         accel: BuildOptions { engine: options.engine, preset: options.preset, ..BuildOptions::default() },
         missing: options.missing,
@@ -112,7 +113,7 @@ pub(crate) fn prepared(
     };
     let scene = compile(&compile_options, diagnostics);
     let (mut scene, integrator) = (scene?, integrator?);
-    size?;
+    asked?;
     if integrator.facts().looks {
         check_content(desc, &scene, options.nothing, diagnostics)?;
     }
@@ -121,6 +122,7 @@ pub(crate) fn prepared(
     filter(desc, &mut scene, integrator.facts().output, eye.total, diagnostics);
     let of_film = if desc.film.spectral { Carried::Wavelengths } else { Carried::Rgb };
     let carried = options.carried.unwrap_or(of_film);
+    scene.view.layers = layers::kept(desc, options, (&*integrator, carried, size), diagnostics)?;
     check_antialias(options, &scene, (&*integrator, carried), diagnostics);
     particles::check(&scene, &*integrator, diagnostics)?;
     check_walks(&scene, &*integrator, integrator_node, diagnostics);
@@ -202,6 +204,11 @@ fn check_antialias(
     if integrator.facts().gathering.is_some() {
         let message = "adaptive antialiasing looks at each place once, and photons of one pass say little: pixels are \
                        supersampled";
+        diagnostics.warning(Location::None, message);
+        return;
+    }
+    if scene.view.layers.is_some() {
+        let message = "what the film keeps beside colours is of samples of pixels: they are supersampled";
         diagnostics.warning(Location::None, message);
         return;
     }

@@ -10,7 +10,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use durer_scene::{AssetError, Assets, Image, Limits, Mesh, Tensors, Voxels};
+use durer_scene::{AssetError, Assets, Image, Limits, Mesh, Ptex, Tensors, Voxels};
 
 use crate::gzip;
 
@@ -26,6 +26,7 @@ pub struct FileAssets {
     images: Cache<Image>,
     meshes: Cache<Mesh>,
     tensors: Cache<Tensors>,
+    ptexs: Cache<Ptex>,
     listings: Cache<HashMap<String, String>>,
     /// Files that were asked for and found.
     found: Mutex<BTreeSet<PathBuf>>,
@@ -50,6 +51,7 @@ impl FileAssets {
             images: Cache::default(),
             meshes: Cache::default(),
             tensors: Cache::default(),
+            ptexs: Cache::default(),
             listings: Cache::default(),
             found: Mutex::default(),
         }
@@ -234,6 +236,9 @@ impl Assets for FileAssets {
     }
     fn tensors(&self, path: &str) -> Result<Arc<Tensors>, AssetError> {
         cached(&self.tensors, path, || crate::tensor::read(self.bytes(path)?, path))
+    }
+    fn ptex(&self, path: &str) -> Result<Arc<Ptex>, AssetError> {
+        cached(&self.ptexs, path, || crate::ptex::read(&self.bytes(path)?, path, self.limits))
     }
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         cached(&self.images, path, || crate::image::read(&self.bytes(path)?, path, self.limits))

@@ -15,7 +15,7 @@ const RATIO: u64 = 200;
 const FREE: u64 = 64 << 20;
 
 /// The most bytes that `packed` may unpack to.
-fn most(packed: &[u8], limits: Limits) -> u64 {
+pub(crate) fn most(packed: &[u8], limits: Limits) -> u64 {
     let likely = (packed.len() as u64).saturating_mul(RATIO).max(FREE);
     likely.min(limits.unpacked_bytes).min(limits.file_bytes)
 }

@@ -7,6 +7,7 @@ pub mod export;
 mod gzip;
 pub mod image;
 pub mod import;
+mod ptex;
 mod tensor;
 mod volume;
 

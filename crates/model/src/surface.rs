@@ -18,6 +18,8 @@ pub struct Surface {
     pub uv: Point2,
     /// The second set of a mesh; the first where there is none.
     pub second_uv: Point2,
+    /// The number that a mesh gives its face; 0 where it gives none.
+    pub face: u32,
     /// Derivative of `p` by `uv.x`; not normalised.
     pub dpdu: Vector3,
     /// Derivative of `p` by `uv.y`; not normalised.
@@ -75,6 +77,7 @@ impl Surface {
         TextureAt {
             uv: self.uv,
             second_uv: self.second_uv,
+            face: self.face,
             p: self.p,
             n: self.n_g,
             vertex_color: self.vertex_color,

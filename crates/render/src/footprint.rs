@@ -34,6 +34,11 @@ impl Onlooker {
         Self { walked, samples: path.sampler.count(), habit }
     }
 
+    /// Of an eye ray that stands for a whole pixel.
+    pub(crate) fn of_pixel() -> Self {
+        Self { walked: Some(0.0), samples: 1, habit: Habit::Asked }
+    }
+
     /// Whether textures of which the most curious wants this much need to know the footprint.
     pub(crate) fn asks(&self, filters: Filters) -> bool {
         match filters {
@@ -99,6 +104,7 @@ mod tests {
             filter: Filter::pixel(),
             speed: 1.0,
             sensor: Default::default(),
+            layers: None,
         }
     }
 
@@ -117,6 +123,7 @@ mod tests {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu,
             dpdv,
             vertex_color: [1.0; 4],

@@ -289,6 +289,7 @@ impl Scene {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu: place.dpdu,
             // By uv, which crosses the strand once.
             dpdv: place.dpdv * 2.0,

@@ -9,7 +9,7 @@ use durer_model::{
     filter::Filter,
 };
 
-use crate::film::Sensor;
+use crate::film::{Layers, Sensor};
 
 /// The camera in its place, and the picture it takes.
 #[derive(Debug)]
@@ -33,6 +33,8 @@ pub struct View {
     pub speed: f32,
     /// What the film makes of that.
     pub sensor: Sensor,
+    /// What the film keeps beside colours.
+    pub layers: Option<Layers>,
 }
 
 /// A point as the camera sees it, in render space.

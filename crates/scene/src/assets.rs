@@ -1,7 +1,7 @@
 //! The only door to files: `compile` asks, `durer-io` answers.
 use std::sync::Arc;
 
-use crate::{Mesh, Tensors, Voxels};
+use crate::{Mesh, Ptex, Tensors, Voxels};
 
 /// Bounds on what a hostile file may make us allocate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,6 +146,13 @@ pub trait Assets: Sync {
     /// # Errors
     /// Why they could not be had.
     fn tensors(&self, path: &str) -> Result<Arc<Tensors>, AssetError> {
+        Err(AssetError::Missing { path: path.to_owned() })
+    }
+    /// The pictures of faces in the file at `path`.
+    ///
+    /// # Errors
+    /// Why they could not be had.
+    fn ptex(&self, path: &str) -> Result<Arc<Ptex>, AssetError> {
         Err(AssetError::Missing { path: path.to_owned() })
     }
     /// What to do about `error`: where was looked, and what is there that is called nearly the same.

@@ -88,6 +88,8 @@ pub struct FilmDesc {
     pub samples: Option<u32>,
     /// Rays shall carry wavelengths instead of red, green and blue.
     pub spectral: bool,
+    /// What it keeps beside colours.
+    pub layers: Option<LayersDesc>,
     /// Diagonal of the film in mm, for cameras in which it has a size.
     pub diagonal_mm: Option<f32>,
     /// Speed of the film; 100 leaves pictures as they are.
@@ -104,6 +106,41 @@ pub struct FilmDesc {
     pub seed: Option<u64>,
     /// Where the file wants the picture written; shown by `info`, never written to unasked.
     pub filename: Option<String>,
+}
+
+/// What a film keeps beside colours.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum LayersDesc {
+    /// What eye rays meet first, and how much samples differ: pbrt-v4's film `gbuffer`.
+    Surfaces(Space),
+    /// Light by its wavelength, in so many parts of a range in nm that are equally wide: pbrt-v4's film `spectral`.
+    Buckets {
+        /// How many.
+        count: u32,
+        /// The ends of the range.
+        range: [f32; 2],
+    },
+}
+
+/// What places and directions are told in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Space {
+    /// The camera's: x right, y up, z ahead.
+    Camera,
+    /// The world's.
+    World,
+}
+
+impl Space {
+    /// The words for them.
+    pub const WORDS: [&'static str; 2] = ["camera", "world"];
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Camera => Self::WORDS[0],
+            Self::World => Self::WORDS[1],
+        }
+    }
 }
 
 /// What holds for all of a scene: pbrt-v4's options.

@@ -12,6 +12,7 @@ mod diag;
 mod mesh;
 mod nearest;
 mod params;
+mod ptex;
 mod schema;
 mod span;
 mod tensors;
@@ -20,13 +21,15 @@ mod voxels;
 pub use assets::{AssetError, Assets, Image, ImageData, Limits};
 pub use counted::counted;
 pub use desc::{
-    AnimationDesc, CameraDesc, Crop, FilmDesc, LightDesc, MaterialRef, MediumDesc, MediumInterface,
-    MediumRef, NamedNode, Node, OptionsDesc, SceneDesc, ShapeDesc, ShapeSource, TextureDesc, TextureValue,
+    AnimationDesc, CameraDesc, Crop, FilmDesc, LayersDesc, LightDesc, MaterialRef, MediumDesc,
+    MediumInterface, MediumRef, NamedNode, Node, OptionsDesc, SceneDesc, ShapeDesc, ShapeSource, Space,
+    TextureDesc, TextureValue,
 };
 pub use diag::{Diagnostic, Diagnostics, Severity, listed};
 pub use mesh::{Mesh, MeshError, VertexKey};
 pub use nearest::nearest_word;
 pub use params::{Data, Param, Params, ValueType};
+pub use ptex::{Ptex, PtexFace, PtexShape};
 pub use schema::{
     Args, ColorInput, Entry, FloatInput, Kind, LightInput, Missing, ParamDefault, ParamSpec, ParamType,
     Schema, TextureNames, find,

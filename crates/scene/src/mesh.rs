@@ -13,6 +13,8 @@ pub struct Mesh {
     pub normals: Vec<Normal3>,
     /// Texture coordinates; `v` grows upwards, (0, 0) is an image's lower left corner.
     pub uvs: Vec<Point2>,
+    /// A number of each triangle's face, for textures that ask for it; empty if there are none.
+    pub faces: Vec<u32>,
     /// A second set of them, for textures that ask for it.
     pub second_uvs: Vec<Point2>,
     /// Tangents with handedness in the fourth number (glTF): bitangent = w * cross(normal, tangent).
@@ -49,6 +51,14 @@ pub enum MeshError {
         vertex: u32,
         /// How many there are.
         vertices: usize,
+    },
+    /// There are numbers of faces, but not one for each triangle.
+    #[error("there are {found} numbers of faces for {triangles} triangles")]
+    Faces {
+        /// How many.
+        found: usize,
+        /// Triangles.
+        triangles: usize,
     },
     /// An attribute array has the wrong length.
     #[error("{attribute} has {found} entries for {vertices} vertices")]
@@ -132,6 +142,10 @@ impl Mesh {
             if found != 0 && found != vertices {
                 return Err(MeshError::Length { attribute, found, vertices });
             }
+        }
+        let (found, triangles) = (self.faces.len(), self.indices.len());
+        if found != 0 && found != triangles {
+            return Err(MeshError::Faces { found, triangles });
         }
         let mut before = self.time;
         for (key, VertexKey { time, positions, normals }) in (1..).zip(&self.later) {

@@ -11,6 +11,7 @@ pub mod interface;
 pub mod lens;
 pub mod measured;
 pub mod microfacet;
+pub mod ptex;
 pub mod quadrature;
 pub mod random;
 

@@ -69,7 +69,8 @@ pub(crate) fn file(
             let interrupted = !take.is_done(&prepared.job());
             let tonemap: ToneMap = settings.look.tonemap(&prepared.integrator_name);
             let look = Look { exposure: settings.look.exposure, tonemap };
-            let whole = Picture { scene, prepared, pixels, render: take.busy(), interrupted };
+            let whole =
+                Picture { scene, prepared, pixels, layers: Vec::new(), render: take.busy(), interrupted };
             (format, whole.encode(picture, look).map_err(|e| e.to_string())?)
         }
         SaveFormat::Pbrt | SaveFormat::Zip => scene_file(format, (scene, &stem), settings, opened)?,

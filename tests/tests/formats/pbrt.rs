@@ -57,19 +57,19 @@ impl Family {
             if plain != Outcome::Read {
                 continue;
             }
-            let mut read = Vec::new();
+            let mut read = named(kind.needs);
             for param in &kind.params {
                 match self.outcome(bench, kind, param) {
-                    Outcome::Read => read.push(named(param)),
+                    Outcome::Read => {
+                        let new = named(param).into_iter().filter(|name| !read.contains(name));
+                        read.extend(new.collect::<Vec<_>>());
+                    }
                     outcome => {
                         remarks.push_str(&remark(&format!("{head} {param}"), &outcome).unwrap_or_default())
                     }
                 }
             }
-            read.dedup();
-            let needs = if kind.needs.is_empty() { String::new() } else { named(kind.needs) + ", " };
-            let list = needs + &read.join(", ");
-            out.push_str(&format!("| `{}` | {} |\n", kind.name, list.trim_end_matches(", ")));
+            out.push_str(&format!("| `{}` | {} |\n", kind.name, read.join(", ")));
         }
         if !remarks.is_empty() {
             out.push_str(&format!("\n{remarks}"));
@@ -113,7 +113,7 @@ fn directive(bench: &Bench, line: &str) -> (String, Outcome) {
 }
 
 /// Names of the parameters, and the word where it is a choice.
-fn named(params: &str) -> String {
+fn named(params: &str) -> Vec<String> {
     let words: Vec<&str> = params.split('"').collect();
     let mut names = Vec::new();
     for pair in words.chunks(2).filter(|pair| pair.len() == 2) {
@@ -127,7 +127,7 @@ fn named(params: &str) -> String {
             _ => {}
         }
     }
-    names.join(", ")
+    names
 }
 
 fn is_type(word: &str) -> bool {

@@ -43,6 +43,7 @@ impl Bench {
         write("lamp.ies", LAMP.as_bytes());
         write("lens.dat", LENS.as_bytes());
         write("paint.bsdf", &durer_testkit::measured::paint());
+        write("x.ptx", &durer_testkit::ptex::pixel());
         write("curve.spd", b"400 0.5\n700 0.5\n");
         write("part.pbrt", b"# nothing\n");
         write("library.mtl", b"newmtl red\nKd 1 0 0\n");

@@ -36,6 +36,7 @@ pub(super) const TARGETS: &[Target] = &[
     binary("vdb", &["vdb"]),
     binary("vol", &["vol"]),
     binary("bsdf", &["bsdf"]),
+    binary("ptex", &["ptx"]),
     binary("gzip", &["gz"]),
     text("spd", &["spd", "csv"]),
     text("ies", &["ies"]),

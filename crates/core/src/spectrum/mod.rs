@@ -28,5 +28,5 @@ pub use light_color::LightColor;
 pub use metal::{conductor, conductor_of, curve, extinction};
 pub use named::{Named, named, named_curve, named_light, spectrum_names};
 pub use sampled::{HELIUM_D, HUES, Sampled, share_weights};
-pub use wavelengths::Wavelengths;
+pub use wavelengths::{AtWavelength, Wavelengths};
 pub use white::{D65, adaptation, daylight, tristimulus, xyz_from_rec709};

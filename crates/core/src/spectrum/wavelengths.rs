@@ -18,6 +18,17 @@ pub struct Wavelengths {
     nm: [f32; 4],
 }
 
+/// What a sample says of one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtWavelength {
+    /// The wavelength in nm.
+    pub nm: f32,
+    /// The value there.
+    pub value: f32,
+    /// How many nm of the visible range it stands for: 1 by the density with which it was drawn.
+    pub width: f32,
+}
+
 /// `tanh` at both ends of the range.
 fn ends() -> (f64, f64) {
     let at = |nm: i32| libm::tanh(STEEP * (f64::from(nm) - BEST));
@@ -39,6 +50,12 @@ impl Wavelengths {
     /// The wavelengths in nm, the leading one first.
     pub fn nm(&self) -> [f32; 4] {
         self.nm
+    }
+
+    /// The values of `s`, each at its wavelength.
+    pub fn values(&self, s: Spectrum) -> [AtWavelength; 4] {
+        let (lanes, width) = (s.lanes(), self.nm.map(|nm| 1.0 / density(nm)));
+        std::array::from_fn(|i| AtWavelength { nm: self.nm[i], value: lanes[i], width: width[i] })
     }
 
     /// `f` of every wavelength in nm and the value there.

@@ -4,6 +4,7 @@
 //! as the language has it, or by the placement itself where the inverse of the inverse differs in the last bit. Nodes that shapes share are
 //! written once, as objects with instances. Files that lie within the original go into a folder beside the text, as they
 //! are; paths of others stay relative to the folder of the original, or go the same way.
+mod film;
 mod media;
 mod mesh;
 mod place;
@@ -184,30 +185,12 @@ impl Writer<'_> {
                 self.camera(desc);
             }
         }
-        let file = self.desc.film.filename.as_ref();
-        let file = file.map(|f| format!(" \"string filename\" [ {} ]", quoted(f))).unwrap_or_default();
-        let told =
-            |name: &str, v: Option<f32>| v.map(|v| format!(" \"float {name}\" [ {v} ]")).unwrap_or_default();
-        let film = &self.desc.film;
-        let back = [
-            told("diagonal", film.diagonal_mm),
-            told("iso", film.iso),
-            told("exposuretime", film.exposure_seconds),
-            told("whitebalance", film.white_balance),
-            told("maxcomponentvalue", film.max_component_value),
-            crop.map(|[x0, x1, y0, y1]| format!(" \"integer pixelbounds\" [ {x0} {x1} {y0} {y1} ]"))
-                .unwrap_or_default(),
-        ]
-        .concat();
         // Seeds of files have 32 bits.
         let seed = match seed as u32 as i32 {
             0 => String::new(),
             seed => format!(" \"integer seed\" [ {seed} ]"),
         };
-        let kind = if self.desc.film.spectral { "spectral" } else { "rgb" };
-        self.line(&format!(
-            "Film \"{kind}\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]{back}{file}"
-        ));
+        self.line(&film::line(&self.desc.film, [width, height], crop));
         self.line(&match sampler {
             SamplerKind::Regular | SamplerKind::Stratified => {
                 let jitter = sampler == SamplerKind::Stratified;

@@ -22,8 +22,11 @@ pub(super) fn bytes(mesh: &Mesh) -> Option<Vec<u8>> {
     let names: Vec<&str> = names.flat_map(|names| names.split(' ')).collect();
     let mut head = format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.len());
     names.iter().for_each(|name| head += &format!("property float {name}\n"));
-    head +=
-        &format!("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.indices.len());
+    let numbers = if mesh.faces.is_empty() { "" } else { "property int face_indices\n" };
+    head += &format!(
+        "element face {}\nproperty list uchar int vertex_indices\n{numbers}end_header\n",
+        mesh.indices.len()
+    );
     let mut bytes = head.into_bytes();
     bytes.reserve(4 * names.len() * mesh.positions.len() + 13 * mesh.indices.len());
     for (vertex, p) in mesh.positions.iter().enumerate() {
@@ -44,10 +47,10 @@ pub(super) fn bytes(mesh: &Mesh) -> Option<Vec<u8>> {
             return None;
         }
     }
-    for corners in &mesh.indices {
+    for (triangle, corners) in mesh.indices.iter().enumerate() {
         bytes.push(3);
-        for corner in corners {
-            bytes.extend(i32::try_from(*corner).ok()?.to_le_bytes());
+        for number in corners.iter().chain(mesh.faces.get(triangle)) {
+            bytes.extend(i32::try_from(*number).ok()?.to_le_bytes());
         }
     }
     Some(bytes)

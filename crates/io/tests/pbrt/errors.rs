@@ -289,7 +289,6 @@ fn what_is_not_supported_warns_once() {
          MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nWorldBegin\nMediumInterface \"\" \"\"\nMediumInterface \"fog\"\n\
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"sphere\"\nAreaLightSource \"diffuse\"\nWorldEnd",
         &[
-            "1:6 warning: film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own | \"gbuffer\" | --integrator cast --show normal, depth, albedo, uv or id, to .exr",
             "2:13 note: durer chooses its acceleration structure itself | \"kdtree\"",
             "3:8 warning: \"pixelstats\" writes no files | \"bool pixelstats\" true | \"durer view\" shows the rays and the noise of each pixel, the integrator \"cast\" with \"cost\" what its first hit takes",
             "13:1 warning: pbrt-v4 has no WorldEnd: it is ignored | WorldEnd",

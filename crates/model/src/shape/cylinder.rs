@@ -82,6 +82,7 @@ impl Shape for Cylinder {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu: Vector3::new(-p.y, p.x, 0.0) * self.phi_max,
             dpdv: Vector3::new(0.0, 0.0, height),
             vertex_color: [1.0; 4],

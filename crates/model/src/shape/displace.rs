@@ -98,11 +98,11 @@ pub fn displaced(
     if !mesh.is_still() {
         return Err("vertices that move cannot be displaced: leave the keys of their motion out".to_owned());
     }
-    let mut fine = Mesh { tangents: Vec::new(), indices: Vec::new(), ..mesh.clone() };
+    let mut fine = Mesh { tangents: Vec::new(), indices: Vec::new(), faces: Vec::new(), ..mesh.clone() };
     if fine.normals.is_empty() {
         fine.normals = normals(&mesh.positions, &mesh.indices);
     }
-    split(&mut fine, &mesh.indices, length, edge_length)?;
+    split(&mut fine, (&mesh.indices, &mesh.faces), length, edge_length)?;
     let is_turned = is_turned(mesh);
     let moved: Vec<Point3> = (0..fine.positions.len())
         .map(|i| {
@@ -132,7 +132,7 @@ pub fn displaced(
 /// Splits `triangles`, whose vertices the mesh has, until no edge is long.
 fn split(
     mesh: &mut Mesh,
-    triangles: &[[u32; 3]],
+    (triangles, faces): (&[[u32; 3]], &[u32]),
     length: impl Fn(Point3, Point3) -> f32,
     edge_length: f32,
 ) -> Result<(), String> {
@@ -151,7 +151,7 @@ fn split(
     let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
     let mut open = Vec::new();
     let mut count = triangles.len();
-    for &triangle in triangles {
+    for (number, &triangle) in triangles.iter().enumerate() {
         open.push(triangle);
         while let Some([a, b, c]) = open.pop() {
             let [p, q, r] = [a, b, c].map(|i| mesh.positions[i as usize]);
@@ -159,6 +159,7 @@ fn split(
             let longest = ab.max(bc).max(ca);
             if longest < edge_length {
                 mesh.indices.push([a, b, c]);
+                mesh.faces.extend(faces.get(number));
                 continue;
             }
             // So that the first two vertices have the longest edge.

@@ -75,6 +75,7 @@ pub fn mesh_surface(mesh: &Mesh, prim: u32, [u, v]: [f32; 2], time: f32) -> Surf
         n_s,
         uv,
         second_uv: weights.sum(&mesh.second_uvs, Point2::to_array).map_or(uv, Point2::from),
+        face: mesh.faces.get(prim as usize).copied().unwrap_or(0),
         dpdu,
         dpdv,
         vertex_color: weights.sum(&mesh.colors, |c| c).unwrap_or([1.0; 4]),

@@ -98,6 +98,7 @@ impl Carrier {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu: Vector3::from_f64(self.u * size[0]),
             dpdv: Vector3::from_f64(self.v * size[1]),
             vertex_color: [1.0; 4],

@@ -109,6 +109,7 @@ impl Shape for Sphere {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu: Vector3::new(-p.y, p.x, 0.0) * self.phi_max,
             dpdv: down * (top - bottom),
             vertex_color: [1.0; 4],

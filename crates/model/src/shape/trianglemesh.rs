@@ -119,7 +119,13 @@ impl Kind for TriangleMesh {
                 "The moments of P, P1, ..., rising; default: from 0 to 1 in equal steps.",
             )
             .unit("s"),
-            ParamSpec::new("faceIndices", ParamType::Ints, ParamDefault::Unset, "Numbers for other programs; no effect."),
+            ParamSpec::new(
+                "faceIndices",
+                ParamType::Ints,
+                ParamDefault::Unset,
+                "Number of each triangle's face, by which \"ptex\" is looked up.",
+            )
+            .range(0.0, f32::INFINITY),
             ALPHA,
             DISPLACEMENT,
             EDGE_LENGTH,
@@ -153,7 +159,9 @@ impl Kind for TriangleMesh {
         let (tangents, colors) = (tangents(args), colors(args));
         let (time, later) = keys(args);
         let indices = triangles;
-        let mesh = Mesh { positions, indices, normals, uvs, second_uvs, tangents, colors, time, later };
+        let faces = args.ints("faceIndices").iter().map(|face| face.max(&0).unsigned_abs()).collect();
+        let mesh =
+            Mesh { positions, indices, normals, uvs, second_uvs, faces, tangents, colors, time, later };
         if args.is_sound()
             && let Err(error) = mesh.validate()
         {
@@ -163,6 +171,7 @@ impl Kind for TriangleMesh {
                 MeshError::Length { attribute: "normals", .. } => "N",
                 MeshError::Length { attribute: "tangents", .. } => "S",
                 MeshError::Length { attribute: "colors", .. } => "colors",
+                MeshError::Faces { .. } => "faceIndices",
                 MeshError::Length { attribute: "second texture coordinates", .. } => "uv2",
                 MeshError::Length { attribute: "normals of a vertex key", .. } => {
                     let wrong =

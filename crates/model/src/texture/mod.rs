@@ -15,6 +15,7 @@ mod mapping;
 mod marble;
 mod mix;
 mod noise;
+mod ptex;
 mod scale;
 mod value;
 mod vertexcolor;
@@ -43,6 +44,7 @@ pub use footprint::{Footprint, Habit};
 pub use imagemap::{ColorImageMap, FloatImageMap, ImageMap};
 pub use marble::Marble;
 pub use mix::Mix;
+pub use ptex::Ptex;
 pub use scale::Scale;
 pub use value::Value;
 pub use vertexcolor::VertexColor;
@@ -56,6 +58,8 @@ pub struct TextureAt {
     pub uv: Point2,
     /// The second set of a mesh; the first where there is none.
     pub second_uv: Point2,
+    /// The number that a mesh gives the face; 0 where it gives none.
+    pub face: u32,
     /// The point in render space.
     pub p: Point3,
     /// The geometric normal there, unit.
@@ -145,6 +149,7 @@ pub const COLOR_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<ColorImageMap>(),
     Entry::of::<Marble>(),
     Entry::of::<Mix<ColorInput>>(),
+    Entry::of::<Ptex>(),
     Entry::of::<Scale<ColorInput>>(),
     Entry::of::<VertexColor>(),
     Entry::of::<Volume>(),
@@ -163,15 +168,13 @@ pub const FLOAT_TEXTURES: &[Entry<Box<dyn Texture>>] = &[
     Entry::of::<FloatImageMap>(),
     Entry::of::<Marble>(),
     Entry::of::<Mix<FloatInput>>(),
+    Entry::of::<Ptex>(),
     Entry::of::<Scale<FloatInput>>(),
     Entry::of::<VertexColor>(),
     Entry::of::<Volume>(),
     Entry::of::<Windy>(),
     Entry::of::<Wrinkled>(),
 ];
-
-/// Words of pbrt-v4 that are known but not built yet, and the registered kind that is used instead.
-pub const NOT_YET: &[(&str, &str)] = &[("ptex", "constant")];
 
 /// The register of textures that yield `value`.
 pub fn textures(value: TextureValue) -> &'static [Entry<Box<dyn Texture>>] {

@@ -37,6 +37,7 @@ pub(crate) fn place() -> Surface {
         n_s: Normal3::new(0.0, 0.0, 1.0),
         uv: Point2::new(0.5, 0.5),
         second_uv: Point2::new(0.5, 0.5),
+        face: 0,
         dpdu: Vector3::new(2.0, 0.0, 0.0),
         dpdv: Vector3::new(0.0, 0.5, 0.0),
         vertex_color: [1.0; 4],

@@ -17,8 +17,8 @@ use durer_model::{
     texture::{Footprint, Texture, TextureAt, textures},
 };
 use durer_scene::{
-    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, TextureDesc,
-    TextureValue,
+    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, Ptex,
+    PtexFace, PtexShape, TextureDesc, TextureValue,
 };
 
 /// One image under every name but "missing.png".
@@ -36,6 +36,12 @@ impl Assets for Files {
             "missing.png" => Err(AssetError::Missing { path: path.to_owned() }),
             _ => Ok(Arc::new(self.0.clone())),
         }
+    }
+    /// A face that is the image's first texel.
+    fn ptex(&self, _: &str) -> Result<Arc<Ptex>, AssetError> {
+        let face = PtexFace { log2: [0, 0], first: 0, beside: [None; 4], is_part: false };
+        let texels = Arc::new(self.0.clone());
+        Ok(Arc::new(Ptex { shape: PtexShape::Quads, faces: vec![face], texels, passed_over: Vec::new() }))
     }
 }
 
@@ -59,6 +65,7 @@ fn at(u: f32, v: f32) -> TextureAt {
     TextureAt {
         uv: Point2::new(u, v),
         second_uv: Point2::new(u, v),
+        face: 0,
         p: Point3::ZERO,
         n: Normal3::new(0.0, 0.0, 1.0),
         vertex_color: [1.0; 4],

@@ -131,6 +131,7 @@ pub(super) fn view(
         filter: filter?,
         speed,
         sensor: Sensor::new(film.white_balance, film.max_component_value),
+        layers: None,
     })
 }
 

@@ -102,6 +102,7 @@ fn looked_at(vertex: &Vertex, to_world: &Transform) -> TextureAt {
     TextureAt {
         uv: vertex.uv,
         second_uv: vertex.second_uv,
+        face: 0,
         p: to_world.point(vertex.p),
         n: to_world.normal(vertex.n),
         vertex_color: vertex.color,

@@ -9,7 +9,7 @@ use durer_accel::{Accel, AccelBuilder, BuildError, BuildOptions, GeometryId, Pla
 use durer_core::{
     Id,
     glam::DAffine3,
-    math::{Bounds3, Motion, Normal3, Point3, Transform, Vector3},
+    math::{Bounds3, Motion, Point3, Transform, Vector3},
 };
 use durer_model::{
     material::Material,
@@ -385,13 +385,13 @@ pub(super) fn baked(mesh: &Mesh, m: &DAffine3) -> Mesh {
         [v.x, v.y, v.z, if mirrored { -t[3] } else { t[3] }]
     };
     let place = |p: &Point3| Point3::from_f64(m.transform_point3(p.to_f64()));
-    let turn = |n: &Normal3| transform.normal(*n);
     Mesh {
         positions: mesh.positions.iter().map(place).collect(),
         indices: mesh.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect(),
-        normals: mesh.normals.iter().map(turn).collect(),
+        normals: mesh.normals.iter().map(|n| transform.normal(*n)).collect(),
         uvs: mesh.uvs.clone(),
         second_uvs: mesh.second_uvs.clone(),
+        faces: mesh.faces.clone(),
         tangents: mesh.tangents.iter().map(tangent).collect(),
         colors: mesh.colors.clone(),
         time: mesh.time,

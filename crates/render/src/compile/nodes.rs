@@ -84,11 +84,9 @@ impl Builder<'_> {
         if !self.are_few_asked() {
             return Vec::new();
         }
-        warn_stand_ins("texture", all.iter().map(|t| &t.node), texture::NOT_YET, self.diagnostics);
-        let nodes: Vec<_> = all.iter().map(|t| stand_in(&t.node, texture::NOT_YET)).collect();
         let built = self.build_all(all, |this, i, t| {
             let before = all.get(..i).unwrap_or_default();
-            this.apart(texture::textures(t.value), "texture", &nodes[i], (before, &[]))
+            this.apart(texture::textures(t.value), "texture", &t.node, (before, &[]))
         });
         built.into_iter().flatten().collect()
     }
@@ -164,43 +162,6 @@ impl Builder<'_> {
             None => Some(Filter::usual()),
         }
     }
-}
-
-/// One warning for each kind among `nodes`, at its first use.
-pub(super) fn warn_not_yet(family: &str, what: &str, nodes: &[&Node], diagnostics: &mut Diagnostics) {
-    let mut kinds: Vec<(&Node, usize)> = Vec::new();
-    for node in nodes {
-        match kinds.iter_mut().find(|(first, _)| first.kind == node.kind) {
-            Some((_, uses)) => *uses += 1,
-            None => kinds.push((node, 1)),
-        }
-    }
-    for (first, uses) in kinds {
-        let times = if uses > 1 { format!(" ({uses} of them)") } else { String::new() };
-        let message = format!("{family} \"{}\" is not supported yet: {what}{times}", first.kind);
-        diagnostics.warning(first.at.clone(), message);
-    }
-}
-
-/// One warning for each kind among `nodes` that [`stand_in`] replaces, at its first use.
-fn warn_stand_ins<'n>(
-    family: &str,
-    nodes: impl Iterator<Item = &'n Node>,
-    not_yet: &[(&str, &str)],
-    diagnostics: &mut Diagnostics,
-) {
-    let replaced = |node: &&Node| not_yet.iter().any(|(word, _)| *word == node.kind);
-    let replaced: Vec<&Node> = nodes.filter(replaced).collect();
-    for (word, instead) in not_yet {
-        let of_kind: Vec<&Node> = replaced.iter().copied().filter(|node| node.kind == *word).collect();
-        warn_not_yet(family, &format!("drawn as \"{instead}\""), &of_kind, diagnostics);
-    }
-}
-
-/// The node itself, or the registered kind that is used until we have this one.
-fn stand_in(node: &Node, not_yet: &[(&str, &str)]) -> Node {
-    let Some((_, instead)) = not_yet.iter().find(|(word, _)| *word == node.kind) else { return node.clone() };
-    Node { kind: (*instead).to_owned(), params: Params::new(), at: node.at.clone() }
 }
 
 /// The material of shapes that name none: grey matte.

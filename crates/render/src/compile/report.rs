@@ -156,6 +156,7 @@ pub(super) fn mesh_bytes(mesh: &Mesh) -> u64 {
         + size_of_val(mesh.normals.as_slice())
         + size_of_val(mesh.uvs.as_slice())
         + size_of_val(mesh.second_uvs.as_slice())
+        + size_of_val(mesh.faces.as_slice())
         + size_of_val(mesh.tangents.as_slice())
         + size_of_val(mesh.colors.as_slice())
         + later;

@@ -6,6 +6,7 @@
 mod adaptive;
 mod crew;
 mod grow;
+mod layers;
 mod part;
 mod pass;
 mod record;
@@ -30,10 +31,11 @@ use durer_core::{sampling::Sampler, spectrum::Carried};
 
 use crate::{
     Contribution, ImbalanceTotals, SampleCx, Scene, Value,
-    film::{self, BLOCK, Film, Pixel, Tile},
+    film::{self, BLOCK, Film, Tile},
     integrator::{Integrator, Output},
     probe::Counters,
 };
+use layers::Sums;
 use pass::Eye;
 use shared::Shared;
 
@@ -179,11 +181,12 @@ impl<'a> Job<'a> {
     }
 
     /// How the picture is antialiased adaptively, if it is. Data cannot be averaged by what the eye sees of it, four
-    /// wavelengths are no colour that could be compared, and all places would share the photons of one pass.
+    /// wavelengths are no colour that could be compared, all places would share the photons of one pass, and layers are
+    /// sums of samples.
     fn adaptive(&self) -> Option<Adaptive> {
         match (self.settings.antialias, self.integrator.facts().output) {
             _ if self.settings.carried == Carried::Wavelengths => None,
-            _ if self.integrator.facts().gathering.is_some() => None,
+            _ if self.integrator.facts().gathering.is_some() || self.scene.view.layers.is_some() => None,
             (Antialias::Adaptive(how), Output::Radiance) => Some(how),
             _ => None,
         }
@@ -245,23 +248,30 @@ impl<'a> Job<'a> {
         finished: impl Fn(Tile, &TileDone) + Sync,
     ) {
         let shared = Mutex::new(rendered);
-        crew::share_out(tiles, self.settings.threads, enough, |tile, pixels: &mut Vec<Pixel>| {
-            lock(&shared).film.read(tile, pixels);
-            let done = self.of_pass(pass.shared.as_ref()).tile(pass, tile, pixels);
+        crew::share_out(tiles, self.settings.threads, enough, |tile, sums: &mut Sums| {
+            let taken = lock(&shared);
+            taken.film.read(tile, &mut sums.pixels);
+            taken.film.read_layers(tile, &mut sums.layers);
+            drop(taken);
+            let done = self.of_pass(pass.shared.as_ref()).tile(pass, tile, sums);
             let mut shared = lock(&shared);
-            shared.film.write(tile, pixels);
+            shared.film.write(tile, &sums.pixels);
+            shared.film.write_layers(tile, &sums.layers);
             shared.take(self, &done);
             drop(shared);
             finished(tile, &done);
         });
     }
 
-    fn tile(&self, pass: &Pass<'_>, tile: Tile, pixels: &mut [Pixel]) -> TileDone {
+    fn tile(&self, pass: &Pass<'_>, tile: Tile, sums: &mut Sums) -> TileDone {
         let mut done = TileDone { counters: pass.gather.counters(), ..TileDone::default() };
         let mut out = Contribution::default();
         let width = (tile.x1 - tile.x0) as usize;
+        let Sums { pixels, layers } = sums;
+        let mut layers = self.pixels_of(layers);
         for (y, row) in (tile.y0..).zip(pixels.chunks_exact_mut(width)) {
             for (x, pixel) in (tile.x0..).zip(row) {
+                let mut beside = layers.next();
                 if pass.is_cancelled() {
                     return done;
                 }
@@ -270,7 +280,12 @@ impl<'a> Job<'a> {
                     let (eye, weight) = self.eye_of([x, y], &sampler.numbered(sample));
                     let cx = self.cx(&eye.ray.sampler);
                     match self.take(&cx, &eye, &mut out, &mut done) {
-                        Some(value) if value.iter().all(|v| v.is_finite()) => pixel.add(value, weight),
+                        Some(value) if value.iter().all(|v| v.is_finite()) => {
+                            pixel.add(value, weight);
+                            if let Some(beside) = &mut beside {
+                                self.keep(&cx, (&eye, &out), (value, weight), beside);
+                            }
+                        }
                         Some(_) => done.bad(BadSample { pixel: [x, y], sample }),
                         None => {}
                     }
@@ -279,25 +294,6 @@ impl<'a> Job<'a> {
             }
         }
         done
-    }
-
-    /// Takes what a sample has for other places of the picture; none of it if part of it is infinite or NaN.
-    fn splat(&self, cx: &SampleCx<'_>, out: &mut Contribution, done: &mut TileDone, bad: BadSample) {
-        // PERF: what has no splats asks for nothing (bench render).
-        if out.splats.is_empty() {
-            return;
-        }
-        if out.splats.iter().all(|splat| splat.radiance.is_finite()) {
-            for splat in &out.splats {
-                let view = &self.scene.view;
-                let rgb = view.sensor.held(cx.basis.to_rgb(splat.radiance).map(|v| v * view.speed));
-                let places = std::iter::once(splat.film).chain(view.repeats(splat.film));
-                done.splats.extend(places.map(|film| film::Splat { film: film.to_array(), rgb }));
-            }
-        } else {
-            done.bad(bad);
-        }
-        out.splats.clear();
     }
 
     /// Takes a sample and counts it.
@@ -348,6 +344,8 @@ struct TileDone {
     imbalances: ImbalanceTotals,
     splits: Option<Splits>,
     splats: Vec<film::Splat>,
+    /// What each of them brings to layers, if there are some.
+    lanes: Vec<[(usize, f32); 4]>,
 }
 
 impl TileDone {
@@ -361,7 +359,7 @@ impl Rendered {
     /// Nothing yet.
     fn new(job: &Job<'_>, gather: Gather) -> Self {
         Self {
-            film: Film::new(job.scene.view.width, job.scene.view.height),
+            film: Film::new(job.scene.view.width, job.scene.view.height).with(job.scene.view.layers),
             samples: 0,
             rays: 0,
             counters: gather.counters(),
@@ -375,6 +373,7 @@ impl Rendered {
 
     fn take(&mut self, job: &Job<'_>, done: &TileDone) {
         self.film.splat(done.samples, &done.splats, &job.scene.view.filter, job.window());
+        self.film.splat_layers(&done.splats, &done.lanes, &job.scene.view.filter, job.window());
         self.samples += done.samples;
         self.rays += done.rays;
         self.bad_samples += done.bad_samples;

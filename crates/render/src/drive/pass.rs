@@ -125,6 +125,7 @@ mod tests {
             filter: Filter::pixel(),
             speed: 1.0,
             sensor: Default::default(),
+            layers: None,
         }
     }
 

@@ -5,18 +5,21 @@
 //! that tree, so that any order of merging along the tree is the same arithmetic. Splats have a plane of their own.
 
 mod develop;
+mod layers;
 mod sensor;
 mod splats;
 mod tile;
 mod tonemap;
 
 pub use develop::{DataPicture, DepthRange, Developed, develop, develop_data, develop_survey};
+pub use layers::{Buckets, Layer, Layers, add_met};
 pub use sensor::{Developing, Sensor};
 pub use splats::Splat;
 pub use tile::Tile;
 pub use tonemap::ToneMap;
 
 use durer_model::filter::Filter;
+use layers::Planes;
 use splats::Splats;
 
 /// Samples per block.
@@ -63,6 +66,8 @@ pub struct Film {
     current: Vec<Pixel>,
     /// What samples added to pixels that are not theirs, if any did.
     splats: Option<Box<Splats>>,
+    /// What it keeps beside colours, if it does.
+    planes: Option<Box<Planes>>,
     /// Samples taken of all pixels.
     samples: u64,
 }
@@ -71,7 +76,41 @@ impl Film {
     /// An empty film.
     pub fn new(width: u32, height: u32) -> Self {
         let current = vec![Pixel::default(); width as usize * height as usize];
-        Self { width, height, finished: Vec::new(), current, splats: None, samples: 0 }
+        Self { width, height, finished: Vec::new(), current, splats: None, planes: None, samples: 0 }
+    }
+
+    /// The same, with layers beside colours.
+    #[must_use]
+    pub fn with(self, layers: Option<Layers>) -> Self {
+        let planes = layers.map(|layers| Box::new(Planes::new(layers, self.width, self.height)));
+        Self { planes, ..self }
+    }
+
+    /// The sums of the layers inside a tile, pixel by pixel; nothing where there are none.
+    pub fn read_layers(&self, tile: Tile, out: &mut Vec<f64>) {
+        out.clear();
+        self.planes.iter().for_each(|planes| planes.read(tile, out));
+    }
+    /// Puts back what [`Film::read_layers`] gave, with samples added.
+    pub fn write_layers(&mut self, tile: Tile, sums: &[f64]) {
+        self.planes.iter_mut().for_each(|planes| planes.write(tile, sums));
+    }
+    /// Adds to layers what splats bring to them, see [`Buckets::lanes`].
+    pub fn splat_layers(
+        &mut self,
+        splats: &[Splat],
+        lanes: &[[(usize, f32); 4]],
+        filter: &Filter,
+        window: Tile,
+    ) {
+        if !lanes.is_empty() {
+            self.planes.iter_mut().for_each(|planes| planes.splat(splats, lanes, filter, window));
+        }
+    }
+    /// What the film holds beside colours.
+    pub fn layers(&self) -> Vec<Layer> {
+        let Some(planes) = &self.planes else { return Vec::new() };
+        planes.developed(&self.pixels(), self.samples)
     }
 
     /// The sums of the block being filled, inside a tile, row by row.

@@ -33,30 +33,76 @@ impl Splats {
 
     /// Adds a splat to the pixels of `window` that the filter gives a part of it.
     pub(super) fn add(&mut self, splat: &Splat, filter: &Filter, window: Tile) {
-        let radius = filter.radius();
-        // Pixels whose middle is near enough.
-        let near = |i: usize, first: u32, end: u32| {
-            let from = (splat.film[i] - radius[i] - 0.5).ceil().max(first as f32);
-            let to = (splat.film[i] + radius[i] - 0.5).floor().min(end as f32 - 1.0);
-            // Places that are no numbers are nowhere.
-            if from <= to { from as u32..to as u32 + 1 } else { 0..0 }
-        };
-        for y in near(1, window.y0, window.y1) {
-            for x in near(0, window.x0, window.x1) {
-                let offset = [splat.film[0] - x as f32 - 0.5, splat.film[1] - y as f32 - 0.5];
-                let share = f64::from(filter.at(offset));
-                let pixel = &mut self.sums[y as usize * self.width as usize + x as usize];
-                for (sum, v) in pixel.iter_mut().zip(splat.rgb) {
-                    *sum = sum.saturating_add((f64::from(v) * share * UNIT) as i128);
-                }
-            }
-        }
+        reached(splat.film, filter, window, |x, y, share| {
+            let pixel = &mut self.sums[y as usize * self.width as usize + x as usize];
+            pixel.iter_mut().zip(splat.rgb).for_each(|(sum, v)| put(sum, v, share));
+        });
     }
 
     /// The sum of a pixel, for a picture that was sampled as often as it has pixels; `samples` were taken.
     pub(super) fn of(&self, index: usize, samples: u64) -> [f32; 3] {
-        let scale = self.sums.len() as f64 / samples.max(1) as f64 / UNIT;
+        let scale = scale(self.sums.len(), samples);
         self.sums[index].map(|sum| (sum as f64 * scale) as f32)
+    }
+}
+
+/// The same of light by its wavelength: a sum for each bucket of each pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BucketSplats {
+    width: u32,
+    buckets: usize,
+    sums: Vec<i128>,
+}
+
+impl BucketSplats {
+    pub(super) fn new(width: u32, pixels: usize, buckets: usize) -> Self {
+        Self { width, buckets, sums: vec![0; pixels * buckets] }
+    }
+
+    /// Adds what a splat at a place of the picture brings to buckets.
+    pub(super) fn add(
+        &mut self,
+        (film, lanes): ([f32; 2], &[(usize, f32); 4]),
+        filter: &Filter,
+        window: Tile,
+    ) {
+        reached(film, filter, window, |x, y, share| {
+            let pixel = (y as usize * self.width as usize + x as usize) * self.buckets;
+            lanes.iter().for_each(|&(bucket, v)| put(&mut self.sums[pixel + bucket], v, share));
+        });
+    }
+
+    /// As [`Splats::of`].
+    pub(super) fn of(&self, index: usize, bucket: usize, samples: u64) -> f32 {
+        let scale = scale(self.sums.len() / self.buckets, samples);
+        (self.sums[index * self.buckets + bucket] as f64 * scale) as f32
+    }
+}
+
+/// What a step of a sum is in a picture of so many pixels, of which so many samples were taken.
+fn scale(pixels: usize, samples: u64) -> f64 {
+    pixels as f64 / samples.max(1) as f64 / UNIT
+}
+
+fn put(sum: &mut i128, v: f32, share: f64) {
+    *sum = sum.saturating_add((f64::from(v) * share * UNIT) as i128);
+}
+
+/// Calls `with` for every pixel of `window` that the filter gives a part of what is at a place of the picture: x, y, the part.
+fn reached(film: [f32; 2], filter: &Filter, window: Tile, mut with: impl FnMut(u32, u32, f64)) {
+    let radius = filter.radius();
+    // Pixels whose middle is near enough.
+    let near = |i: usize, first: u32, end: u32| {
+        let from = (film[i] - radius[i] - 0.5).ceil().max(first as f32);
+        let to = (film[i] + radius[i] - 0.5).floor().min(end as f32 - 1.0);
+        // Places that are no numbers are nowhere.
+        if from <= to { from as u32..to as u32 + 1 } else { 0..0 }
+    };
+    for y in near(1, window.y0, window.y1) {
+        for x in near(0, window.x0, window.x1) {
+            let offset = [film[0] - x as f32 - 0.5, film[1] - y as f32 - 0.5];
+            with(x, y, f64::from(filter.at(offset)));
+        }
     }
 }
 

@@ -18,8 +18,14 @@ pub(crate) fn rendered(scene: &str, options: &Options) -> Vec<u8> {
     let rendered = prepared.job().render(Gather::Rays, &(), &AtomicBool::new(false));
     let pixels: Vec<Pixel> = rendered.film.pixels();
     let tonemap = Look::usual_tonemap(&prepared.integrator_name);
-    let picture =
-        Picture { scene, prepared: &prepared, pixels, render: Default::default(), interrupted: false };
+    let picture = Picture {
+        scene,
+        prepared: &prepared,
+        pixels,
+        layers: Vec::new(),
+        render: Default::default(),
+        interrupted: false,
+    };
     picture.develop(Look { exposure: 0.0, tonemap }).rgb8
 }
 

@@ -286,6 +286,7 @@ fn color(scene: &Scene, object: &Object, world: DVec3) -> Rgb {
             n_s: n,
             uv,
             second_uv: uv,
+            face: 0,
             dpdu: Vector3::new(1.0, 0.0, 0.0),
             dpdv: Vector3::new(0.0, 1.0, 0.0),
             vertex_color: [1.0; 4],

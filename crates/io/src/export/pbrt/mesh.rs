@@ -47,6 +47,11 @@ pub(super) fn node(mesh: &Mesh) -> Result<Node, String> {
         let uvs = mesh.second_uvs.iter().flat_map(|uv| [uv.x, uv.y]).collect();
         params = params.with("uv2", ValueType::Point2, floats(uvs));
     }
+    if !mesh.faces.is_empty() {
+        let faces: Option<Vec<i32>> = mesh.faces.iter().map(|face| i32::try_from(*face).ok()).collect();
+        let faces = faces.ok_or("the number of a face is too large")?;
+        params = params.with("faceIndices", ValueType::Integer, Data::Ints(faces));
+    }
     if !mesh.tangents.is_empty() {
         let along = mesh.tangents.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect();
         let sides = mesh.tangents.iter().map(|[.., w]| *w).collect();

@@ -1,7 +1,7 @@
 //! `Film` and `Sampler`: parameters, pbrt-v4's defaults and what of them durer follows.
 use durer_scene::{
-    Args, Crop, Diagnostics, FilmDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params, Schema,
-    counted,
+    Args, Crop, Diagnostics, FilmDesc, LayersDesc, Node, Param, ParamDefault, ParamSpec, ParamType, Params,
+    Schema, Space, counted,
 };
 
 const fn int(name: &'static str, default: i32, most: f32, doc: &'static str) -> ParamSpec {
@@ -63,13 +63,17 @@ pub(super) const FILM: Schema = Schema {
         .above(0.0, f32::INFINITY),
         ParamSpec::new(
             "coordinatesystem",
-            ParamType::Text,
-            ParamDefault::Text("camera"),
-            "gbuffer: no effect",
+            ParamType::Choice(&Space::WORDS),
+            ParamDefault::Text(Space::WORDS[0]),
+            "gbuffer: what places and normals are told in",
         ),
-        int("nbuckets", 16, 1e6, "spectral: no effect, the picture has three channels"),
-        ParamSpec::float("lambdamin", 360.0, "spectral: no effect").unit("nm"),
-        ParamSpec::float("lambdamax", 830.0, "spectral: no effect").unit("nm"),
+        int("nbuckets", 16, 10_000.0, "spectral: channels beside red, green and blue"),
+        ParamSpec::float("lambdamin", VISIBLE[0], "spectral: where the first begins")
+            .unit("nm")
+            .range(VISIBLE[0], VISIBLE[1]),
+        ParamSpec::float("lambdamax", VISIBLE[1], "spectral: where the last ends")
+            .unit("nm")
+            .range(VISIBLE[0], VISIBLE[1]),
     ],
 };
 
@@ -94,8 +98,17 @@ const SENSORS: [&str; 18] = [
     "sony_ilce_7rm3",
     "sony_ilce_9",
 ];
-/// What only pictures of more layers have.
-const LAYERS: [&str; 4] = ["coordinatesystem", "nbuckets", "lambdamin", "lambdamax"];
+/// The wavelengths that rays carry, in nm.
+const VISIBLE: [f32; 2] = [360.0, 830.0];
+/// The narrowest bucket in nm: channels are called after the middles, with three decimals.
+const NARROWEST: f32 = 0.01;
+/// What only films with layers heed, and which.
+const OF_LAYERS: [(&str, &str); 4] = [
+    ("coordinatesystem", "gbuffer"),
+    ("nbuckets", "spectral"),
+    ("lambdamin", "spectral"),
+    ("lambdamax", "spectral"),
+];
 /// The coldest glow that can be balanced.
 const COLDEST: f32 = 1000.0;
 
@@ -175,16 +188,32 @@ pub(super) fn film(node: &Node, film: &mut FilmDesc, diagnostics: &mut Diagnosti
     film.white_balance = white_balance(&mut args);
     film.filename = args.is_set("filename").then(|| args.text("filename").to_owned());
     film.crop = crop(&mut args);
-    for name in LAYERS {
-        if args.is_set(name) {
-            args.warning(name, format!("\"{name}\" has no effect: the picture has red, green and blue"));
+    film.layers = layers(&mut args, &node.kind);
+}
+
+/// What a film of this kind keeps beside colours.
+fn layers(args: &mut Args<'_>, kind: &str) -> Option<LayersDesc> {
+    for (name, of) in OF_LAYERS {
+        if args.is_set(name) && kind != of {
+            args.warning(name, format!("\"{name}\" has no effect: it is for film \"{of}\""));
         }
     }
-    if node.kind == "gbuffer" {
-        let message =
-            "film \"gbuffer\" is taken for \"rgb\": what is seen is written as a picture of its own";
-        let hint = "--integrator cast --show normal, depth, albedo, uv or id, to .exr";
-        diagnostics.warning(node.at.clone(), message).hint(hint);
+    match kind {
+        "gbuffer" => Some(LayersDesc::Surfaces(match args.text("coordinatesystem") {
+            "world" => Space::World,
+            _ => Space::Camera,
+        })),
+        "spectral" => {
+            let count = u32::try_from(args.int("nbuckets")).ok()?;
+            let range = [args.float("lambdamin"), args.float("lambdamax")];
+            if args.is_sound() && range[1] - range[0] < NARROWEST * count as f32 {
+                let least = format!("expected a bucket to have {NARROWEST} nm or more");
+                let [low, high] = range;
+                args.error("lambdamax", format!("{count} buckets lie from {low} to {high} nm, {least}"));
+            }
+            Some(LayersDesc::Buckets { count, range })
+        }
+        _ => None,
     }
 }
 

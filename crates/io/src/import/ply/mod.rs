@@ -141,6 +141,9 @@ fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
         rows.colors.clear();
         dropped("the colours");
     }
+    if !rows.faces.is_empty() && rows.uvs.is_empty() && rows.coords.is_empty() {
+        span_faces(&mut rows);
+    }
     if !rows.coords.is_empty() && rows.uvs.is_empty() {
         split_vertices(&mut rows);
     }
@@ -148,9 +151,22 @@ fn assemble(mut rows: Rows, warnings: &mut Vec<Complaint>) -> Mesh {
     warnings.extend(
         long.warn(|n| format!("{n} lines hold more numbers than the header says; the last are ignored")),
     );
-    let indices = triangles(&rows, warnings);
+    let (indices, faces) = triangles(&rows, warnings);
     let Rows { positions, normals, uvs, colors, tangents, second_uvs, .. } = rows;
-    Mesh { positions, indices, normals, uvs, second_uvs, tangents, colors, ..Mesh::default() }
+    Mesh { positions, indices, normals, uvs, second_uvs, faces, tangents, colors, ..Mesh::default() }
+}
+
+/// Gives the corners of each numbered face the coordinates that pbrt takes where a file has none.
+fn span_faces(rows: &mut Rows) {
+    const SQUARE: [[f32; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let (mut start, corners) = (0, rows.corners.len());
+    let triangles = (1..=corners / 3).map(|i| 3 * i);
+    let ends = if rows.ends.is_empty() { triangles.collect() } else { rows.ends.clone() };
+    for end in ends {
+        // Of faces with more corners nobody says.
+        rows.coords.extend((start..end).map(|i| Point2::from(SQUARE[(i - start) % 4])));
+        start = end;
+    }
 }
 
 /// Gives corners with texture coordinates of their own vertices of their own.
@@ -196,19 +212,22 @@ fn gather<T: Copy>(list: &[T], which: &[usize]) -> Vec<T> {
     which.iter().filter_map(|&i| list.get(i).copied()).collect()
 }
 
-fn triangles(rows: &Rows, warnings: &mut Vec<Complaint>) -> Vec<[u32; 3]> {
+/// Triangles, and the number of the face of each if faces have numbers.
+fn triangles(rows: &Rows, warnings: &mut Vec<Complaint>) -> (Vec<[u32; 3]>, Vec<u32>) {
     if rows.ends.is_empty() {
-        return rows.corners.as_chunks::<3>().0.to_vec();
+        return (rows.corners.as_chunks::<3>().0.to_vec(), rows.faces.clone());
     }
+    let mut faces = Vec::new();
     let mut indices = Vec::with_capacity(rows.corners.len() / 2);
     let mut split = Triangulator::new(rows.corners.len());
     let (mut points, mut local, mut start, mut poor) = (Vec::new(), Vec::new(), 0, 0);
-    for &end in &rows.ends {
+    for (number, &end) in rows.ends.iter().enumerate() {
         let polygon = rows.corners.get(start..end).unwrap_or_default();
         start = end;
         match *polygon {
             [a, b, c] => {
                 indices.push([a, b, c]);
+                faces.extend(rows.faces.get(number));
                 continue;
             }
             [] | [_] | [_, _] => {
@@ -226,6 +245,7 @@ fn triangles(rows: &Rows, warnings: &mut Vec<Complaint>) -> Vec<[u32; 3]> {
         local.clear();
         split.split(&points, &mut local);
         indices.extend(local.iter().map(|t| t.map(|i| polygon.get(i).copied().unwrap_or_default())));
+        faces.extend(local.iter().filter_map(|_| rows.faces.get(number)));
     }
     if poor > 0 {
         warnings
@@ -234,7 +254,7 @@ fn triangles(rows: &Rows, warnings: &mut Vec<Complaint>) -> Vec<[u32; 3]> {
     if split.hasty > 0 {
         warnings.push(Complaint::whole(super::polygon::hasty(split.hasty)).warning());
     }
-    indices
+    (indices, faces)
 }
 
 /// The mesh as the one shape of the scene.

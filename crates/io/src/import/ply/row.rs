@@ -44,6 +44,8 @@ pub(super) enum Role {
         indices: usize,
         coords: Option<usize>,
         strips: bool,
+        /// The column of numbers of faces.
+        number: Option<usize>,
         /// The columns of colours that faces bring, and what they are divided by; see [`Vertices`].
         colors: Option<([Option<usize>; 4], f32)>,
     },
@@ -76,7 +78,10 @@ pub(super) fn role(element: &Element) -> Result<Role, Complaint> {
             let indices = element.find(&["vertex_indices", "vertex_index"]).and_then(lists);
             let coords = element.find(&["texcoord"]).and_then(lists);
             match indices {
-                Some(indices) => Ok(Role::Faces { indices, coords, strips, colors: face_colors(element) }),
+                Some(indices) => {
+                    let number = element.find(&["face_indices"]).map(|(i, _)| i);
+                    Ok(Role::Faces { indices, coords, strips, number, colors: face_colors(element) })
+                }
                 None if element.count == 0 => Ok(Role::Other),
                 None => {
                     let message = format!("the element {} has no list \"vertex_indices\"", element.name);
@@ -163,6 +168,8 @@ pub(super) struct Rows {
     pub(super) coords: Vec<Point2>,
     /// A colour of each face, if faces bring their own.
     pub(super) face_colors: Vec<[f32; 4]>,
+    /// A number of each face, if faces bring them.
+    pub(super) faces: Vec<u32>,
     /// Where each polygon ends in `corners`; empty as long as all are triangles.
     pub(super) ends: Vec<usize>,
     /// Lines with more numbers than their table has.
@@ -191,6 +198,7 @@ impl Rows {
         self.tangents.append(&mut later.tangents);
         self.second_uvs.append(&mut later.second_uvs);
         self.corners.append(&mut later.corners);
+        self.faces.append(&mut later.faces);
         self.face_colors.append(&mut later.face_colors);
         self.coords.append(&mut later.coords);
     }
@@ -276,7 +284,7 @@ impl Rows {
         vertices: usize,
         numbers: &mut impl Numbers,
     ) -> Result<(), Complaint> {
-        let Role::Faces { indices, coords, strips, colors } = *role else {
+        let Role::Faces { indices, coords, strips, number, colors } = *role else {
             return Ok(());
         };
         let (start, mut own) = (self.corners.len(), Vec::new());
@@ -305,6 +313,9 @@ impl Rows {
                         own.push(Point2::new(numbers.float(item)?, numbers.float(item)?));
                     }
                     numbers.skip(item, length % 2)?;
+                }
+                Shape::Scalar(ty) if Some(i) == number && !strips => {
+                    self.faces.push(numbers.integer(ty)?.max(0) as u32);
                 }
                 Shape::Scalar(ty) if colors.is_some() => {
                     let place = colors.and_then(|(columns, _)| columns.iter().position(|c| *c == Some(i)));

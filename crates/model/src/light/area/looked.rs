@@ -83,6 +83,7 @@ pub(super) fn somewhere(p: DVec3, n: DVec3) -> TextureAt {
     TextureAt {
         uv: Point2::new(0.5, 0.5),
         second_uv: Point2::new(0.5, 0.5),
+        face: 0,
         p: Point3::from_f64(p),
         n: Normal3::from_f64(n),
         vertex_color: [1.0; 4],

@@ -44,7 +44,13 @@ impl Kind for BilinearMesh {
                 ParamDefault::Unset,
                 "Texture coordinates of each corner; default (0, 0), (1, 0), (0, 1), (1, 1) on every patch.",
             ),
-            ParamSpec::new("faceIndices", ParamType::Ints, ParamDefault::Unset, "Numbers for other programs; no effect."),
+            ParamSpec::new(
+                "faceIndices",
+                ParamType::Ints,
+                ParamDefault::Unset,
+                "Number of each patch, by which \"ptex\" is looked up.",
+            )
+            .range(0.0, f32::INFINITY),
             ParamSpec::new(
                 "emissionfilename",
                 ParamType::Text,
@@ -74,6 +80,11 @@ impl Kind for BilinearMesh {
             args.error("P", format!("vertex {vertex} is not finite"));
         }
         let quads = quads(args, points.len());
+        let faces: Vec<u32> =
+            args.ints("faceIndices").iter().map(|face| face.max(&0).unsigned_abs()).collect();
+        if !faces.is_empty() && faces.len() != quads.len() {
+            args.error("faceIndices", format!("{} numbers for {} patches", faces.len(), quads.len()));
+        }
         let flat = |q: &[usize; 4]| {
             let [a, b, c, d] = q.map(|i| points.get(i).copied().unwrap_or(Point3::ZERO).to_f64());
             // The four triangles of a patch that is a line or a point have no area.
@@ -84,20 +95,24 @@ impl Kind for BilinearMesh {
             args.warning("P", "no patch has an area: nothing of this shape will be seen");
         }
         if Displacement::read(args).is_some() && args.is_sound() {
-            return Some(Geometry::Mesh(Arc::new(triangles(&points, &normals, &uvs, &quads))));
+            return Some(Geometry::Mesh(Arc::new(triangles((&points, &normals, &uvs), &faces, &quads))));
         }
-        let of = |q: [usize; 4]| {
-            let patch = Patch::new(q.map(|i| points[i]));
+        let of = |(number, q): (usize, [usize; 4])| {
+            let patch = Patch::new(q.map(|i| points[i])).numbered(faces.get(number).copied().unwrap_or(0));
             let patch = if normals.is_empty() { patch } else { patch.with_normals(q.map(|i| normals[i])) };
             Arc::new(if uvs.is_empty() { patch } else { patch.with_uvs(q.map(|i| uvs[i])) }) as Arc<dyn Shape>
         };
-        args.is_sound().then(|| Geometry::Shapes(quads.into_iter().map(of).collect()))
+        args.is_sound().then(|| Geometry::Shapes(quads.into_iter().enumerate().map(of).collect()))
     }
 }
 
 /// Two triangles for each patch, as pbrt-v4 displaces quadrilaterals. Patches share no vertices, as each has its own
 /// texture coordinates if none are given.
-fn triangles(points: &[Point3], normals: &[Normal3], uvs: &[Point2], quads: &[[usize; 4]]) -> Mesh {
+fn triangles(
+    (points, normals, uvs): (&[Point3], &[Normal3], &[Point2]),
+    faces: &[u32],
+    quads: &[[usize; 4]],
+) -> Mesh {
     let corner = |i: usize| Point2::new((i % 2) as f32, (i / 2) as f32);
     let corners = || quads.iter().flatten();
     Mesh {
@@ -107,6 +122,7 @@ fn triangles(points: &[Point3], normals: &[Normal3], uvs: &[Point2], quads: &[[u
             true => (0..4 * quads.len()).map(|i| corner(i % 4)).collect(),
             false => corners().map(|&i| uvs[i]).collect(),
         },
+        faces: faces.iter().flat_map(|&face| [face; 2]).collect(),
         indices: (0..quads.len() as u32)
             .flat_map(|quad| [[0, 1, 3], [0, 3, 2]].map(|t| t.map(|i: u32| 4 * quad + i)))
             .collect(),

@@ -23,6 +23,8 @@ pub struct Patch {
     p: [DVec3; 4],
     normals: Option<[Normal3; 4]>,
     uvs: Option<[Point2; 4]>,
+    /// Its number.
+    face: u32,
 }
 
 /// Where a line meets the patch, in f64.
@@ -37,7 +39,12 @@ struct Meeting {
 impl Patch {
     /// From the corners at (0, 0), (1, 0), (0, 1) and (1, 1), all finite.
     pub fn new(corners: [Point3; 4]) -> Self {
-        Self { p: corners.map(Point3::to_f64), normals: None, uvs: None }
+        Self { p: corners.map(Point3::to_f64), normals: None, uvs: None, face: 0 }
+    }
+    /// The same, as the face of this number.
+    #[must_use]
+    pub fn numbered(self, face: u32) -> Self {
+        Self { face, ..self }
     }
     /// The same with shading normals, which also say where the outside is.
     #[must_use]
@@ -209,6 +216,7 @@ impl Shape for Patch {
             n_s: shading.map_or(n_g, Normal3::from_f64),
             uv,
             second_uv: uv,
+            face: self.face,
             dpdu,
             dpdv,
             vertex_color: [1.0; 4],

@@ -18,7 +18,7 @@ pub(crate) enum Encoding {
 impl Encoding {
     /// What the parameter `encoding` says of an image; without it pbrt's habit: files of 8 bits and PNG are sRGB. `None`
     /// after a complaint.
-    pub(super) fn read(args: &mut Args<'_>, data: &ImageData) -> Option<Self> {
+    pub(crate) fn read(args: &mut Args<'_>, data: &ImageData) -> Option<Self> {
         let word = args.text("encoding").trim();
         let gamma = || match word.strip_prefix("gamma ")?.trim().parse() {
             Ok(gamma) if gamma > 0.0 && f32::is_finite(gamma) => Some(Self::Gamma(gamma)),

@@ -64,6 +64,6 @@ pub(super) fn weight(weights: &[f32; WEIGHTS], r2: f32) -> f32 {
 }
 
 /// The number of the copy, a fraction, whose texels are `width` of the image's texels wide; 0 is the image.
-pub(super) fn level(width: f32) -> f32 {
+pub(crate) fn level(width: f32) -> f32 {
     if width > 1.0 { ln(width) * std::f32::consts::LOG2_E } else { 0.0 }
 }

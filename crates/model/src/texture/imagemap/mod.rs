@@ -4,8 +4,8 @@
 //! `[i / w, (i + 1) / w)`. Texels are decoded to linear values before they are interpolated (Physically Based Rendering,
 //! 4th edition, section 10.4). The filters point and bilinear look at the image itself; pbrt-v4 has them choose a copy by the
 //! footprint too, which differs where an image is seen from far.
-mod encoding;
-mod filter;
+pub(crate) mod encoding;
+pub(crate) mod filter;
 mod footprint;
 mod lookup;
 mod pyramid;

@@ -1,8 +1,8 @@
-//! Grids of voxels, and arrays of numbers, in files that parameters name.
+//! Grids of voxels, arrays of numbers, and pictures of faces in files that parameters name.
 use std::sync::Arc;
 
 use super::Args;
-use crate::{Tensors, Voxels};
+use crate::{Ptex, Tensors, Voxels};
 
 impl Args<'_> {
     /// The names of the grids of voxels in the file that a [`crate::ParamType::File`] names; `None` as with images.
@@ -21,5 +21,11 @@ impl Args<'_> {
     pub fn tensors(&mut self, name: &str) -> Option<Arc<Tensors>> {
         let (assets, _) = self.assets?;
         self.found(name, assets.tensors(self.text(name)), "a placeholder is shown")
+    }
+
+    /// The pictures of faces in the file that a [`crate::ParamType::File`] names; `None` as with images.
+    pub fn ptex(&mut self, name: &str) -> Option<Arc<Ptex>> {
+        let (assets, _) = self.assets?;
+        self.found(name, assets.ptex(self.text(name)), "a placeholder is shown")
     }
 }
