@@ -2,7 +2,6 @@
 use durer_core::{
     Id,
     math::{Bounds3, Vector3},
-    spectrum::Basis,
 };
 use durer_model::{Fill, Medium, light::Steps, medium::Glowing};
 
@@ -111,7 +110,7 @@ impl Scene {
     /// Whether a volume glows that, as the file says, is not only within bodies and has no bounds of its own.
     pub fn glows_endlessly(&self, volume: u32) -> bool {
         let fill = Fill::Volume(volume);
-        let is_around = || self.start.present(&self.media, &Basis::Rgb).fill == fill;
+        let is_around = || self.start.fill(&self.media) == fill;
         let is_outside =
             |medium: Option<Id<Medium>>| medium.is_some_and(|id| self.media.get(id).outside == Some(fill));
         let volume = &self.volumes[volume as usize];

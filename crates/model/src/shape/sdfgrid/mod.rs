@@ -107,6 +107,7 @@ impl Shape for SdfGrid {
             second_uv: Point2::new(0.0, 0.0),
             dpdu: Vector3::from_f64(dpdu),
             dpdv: Vector3::from_f64(dpdv),
+            face: 0,
             vertex_color: [1.0; 4],
             footprint: Footprint::POINT,
         }

@@ -18,7 +18,7 @@ impl<P: Probe> EyeWalk<'_, P> {
         let ways = self.own.ways;
         let seen = self.vertices.len() + 2;
         let scene = self.walk.cx.scene;
-        let fill = ray.media.present(&scene.media, &self.walk.cx.basis).fill;
+        let fill = ray.media.fill(&scene.media);
         // What is seen straight from the camera is found in no other way.
         let (Some(volume), Fill::Volume(number), false) =
             (scene.volume_of(fill), fill, self.vertices.is_empty())

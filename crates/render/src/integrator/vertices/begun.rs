@@ -86,7 +86,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             true => Default::default(),
         };
         if let Source::Glow(_) = begun.source
-            && media.present(&self.cx.scene.media, &self.cx.basis).fill != Fill::Volume(end.light as u32)
+            && media.fill(&self.cx.scene.media) != Fill::Volume(end.light as u32)
         {
             return None;
         }
