@@ -117,16 +117,16 @@ fn a_caustic_in_fog_is_found_from_the_light() {
 fn a_caustic_in_fog_under_a_wide_lamp_is_that_of_paths() {
     let beam = |glass: &str| {
         format!(
-            "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 AreaLightSource \"diffuse\" \"rgb L\" [30 25 20]\n\
-             Shape \"disk\" \"float radius\" 0.5 AttributeEnd\n\
+            "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 AreaLightSource \"diffuse\" \"rgb L\" [5 4 3]\n\
+             Shape \"disk\" \"float radius\" 1.2 AttributeEnd\n\
              AttributeBegin {glass} Translate 0 3.9 0 Shape \"sphere\" \"float radius\" 0.6 AttributeEnd\n{THINGS}{FILLED}"
         )
     };
     let glass = beam("Material \"dielectric\" \"float eta\" 1.5");
     let (samples, bias) =
-        if std::env::var_os("DURER_SLOW").is_some() { (16_384, 0.004) } else { (768, 0.025) };
+        if std::env::var_os("DURER_SLOW").is_some() { (32_768, 0.005) } else { (2048, 0.025) };
     let world = format!("{}{glass}", fog(EVEN));
-    agree("beam", ("", &world), (samples, Carried::Rgb), [(bias, 0.15), (bias, 0.15)]);
+    agree("beam", ("", &world), (samples, Carried::Rgb), [(bias, 0.2), (bias, 0.2)]);
     let dark = format!("{}{}", fog(EVEN), beam("Material \"diffuse\" \"rgb reflectance\" [0 0 0]"));
     let of = |world: &str| {
         total(&means(&picture("\"bdpt\" \"integer maxdepth\" 4", "", world, (256, Carried::Rgb))))
