@@ -70,16 +70,16 @@ fn fire_lights_what_lies_around_it() {
     let flame =
         grid(&format!("{DENSITY} \"rgb sigma_a\" [1 1.5 2] \"rgb sigma_s\" [1 1 1] \"rgb Le\" [20 10 5]"));
     let hot = grid(&format!(
-        "{DENSITY} \"rgb sigma_a\" [9 9 9] \"rgb sigma_s\" [1 1 1] \"float temperature\" [2000 1500 300 0  900 1800 2500 20]"
+        "{DENSITY} \"rgb sigma_a\" [9 9 9] \"rgb sigma_s\" [1 1 1] \"float temperature\" [6000 4500 900 0  2700 5400 7500 60]"
     ));
     let painted = "\"string type\" \"rgbgrid\" \"point3 p0\" [-0.6 1 -1] \"point3 p1\" [0.7 2.3 0.2] \"integer nx\" 2\n\
         \"rgb sigma_a\" [1 0.5 0.1  0.1 2 2] \"rgb sigma_s\" [0.5 0.5 0.5  1 2 3] \"rgb Le\" [9 9 9  20 1 9]";
     for (name, medium) in [("flame", &*flame), ("hot", &hot), ("painted", painted)] {
-        agree(name, &ball(medium), (samples(), Carried::Rgb), (0.02, 0.15));
+        agree(name, &ball(medium), (samples(), Carried::Rgb), (0.02, 0.25));
     }
 }
 
-/// The glass is of another body, lamps shine too, and the gas is where its surface is only in part: behind a window.
+/// Lamps shine too, the ball moves, and the gas has a surface on one side only: a window, behind which it ends at walls.
 #[test]
 fn what_glows_may_lie_anywhere() {
     let gas = format!("MakeNamedMedium \"fire\" {GAS} [0.2 0.2 0.2]\n");

@@ -19,7 +19,8 @@ enum Verdict {
     /// pbrt computes with wavelengths, and strong colours that light meets again and again come out otherwise with three
     /// numbers: the pictures agree if our rays carry wavelengths too.
     NeedsWavelengths,
-    /// pbrt's own estimate of a coat is too bright (docs/pbrt-language.md).
+    /// pbrt's own estimate of a coat is too bright (docs/pbrt-language.md): blocks are left out where it is clearly brighter, which
+    /// are few and brighter by as much as that estimate makes coats. The others agree if our rays carry wavelengths.
     Coat,
 }
 
@@ -130,8 +131,11 @@ struct Agreement {
     expected: f64,
 }
 
-fn compare([a, b]: [&Blocks; 2], [p, q]: [&Blocks; 2]) -> Agreement {
-    let mut of: Vec<[f64; 4]> = (0..a.len())
+/// Of a block: the reference, ours less that, its absolute value, and the noise of both.
+type Difference = [f64; 4];
+
+fn differences([a, b]: [&Blocks; 2], [p, q]: [&Blocks; 2]) -> Vec<Difference> {
+    let mut of: Vec<Difference> = (0..a.len())
         .map(|i| {
             let (reference, ours) = (0.5 * (a[i] + b[i]), 0.5 * (p[i] + q[i]));
             let noise = (0.5 * (a[i] - b[i])).hypot(0.5 * (p[i] - q[i]));
@@ -140,7 +144,11 @@ fn compare([a, b]: [&Blocks; 2], [p, q]: [&Blocks; 2]) -> Agreement {
         .collect();
     of.sort_by(|x, y| x[0].total_cmp(&y[0]));
     of.truncate(of.len() - of.len() / 100);
-    let sum = |f: fn(&[f64; 4]) -> f64| of.iter().map(f).sum::<f64>();
+    of
+}
+
+fn compare(of: &[Difference]) -> Agreement {
+    let sum = |f: fn(&Difference) -> f64| of.iter().map(f).sum::<f64>();
     let all = sum(|b| b[0]);
     Agreement {
         bias: sum(|b| b[1]) / all,
@@ -150,12 +158,28 @@ fn compare([a, b]: [&Blocks; 2], [p, q]: [&Blocks; 2]) -> Agreement {
     }
 }
 
+impl Agreement {
+    fn is_close(&self) -> bool {
+        self.bias.abs() < 5e-3 + 4.0 * self.sigma && self.error <= 1.6 * self.expected
+    }
+}
+
+/// Coats that reflect the light of body and coat: 3 to 12 % brighter in pbrt, by its formula.
+fn has_bright_coats(of: &[Difference]) -> bool {
+    let is_brighter = |b: &Difference| b[1] + 3.0 * b[3] < -0.01 * b[0];
+    let (coats, others): (Vec<Difference>, Vec<Difference>) = of.iter().partition(|b| is_brighter(b));
+    let (coats, share) = (compare(&coats), coats.len() as f64 / of.len() as f64);
+    let others = compare(&others);
+    eprintln!("coats, {share} of the blocks: {coats:?}, others: {others:?}");
+    others.is_close() && share < 0.15 && (-0.12..-0.03).contains(&coats.bias)
+}
+
 impl Verdict {
     /// What rays carry first of all.
     fn carried(self) -> Carried {
         match self {
-            Self::NeedsWavelengths => Carried::Wavelengths,
-            Self::Agrees | Self::Coat => Carried::Rgb,
+            Self::NeedsWavelengths | Self::Coat => Carried::Wavelengths,
+            Self::Agrees => Carried::Rgb,
         }
     }
 }
@@ -165,15 +189,14 @@ fn check(folder: &Path, case: &Case, (other, carried): (Option<&str>, Carried), 
     let (_, _, b) = reference(folder, &format!("{}-b", case.name));
     let file = folder.join("assets/pbrt").join(case.file);
     let [p, q] = [1, 2].map(|seed| ours(&file, (other, carried), (width, height), (samples / 2, seed)));
-    let found = compare([&a, &b], [&p, &q]);
+    let of = differences([&a, &b], [&p, &q]);
+    let found = compare(&of);
     eprintln!("{}, {carried:?}: {found:?}", case.name);
-    let agrees = found.bias.abs() < 5e-3 + 4.0 * found.sigma && found.error <= 1.6 * found.expected;
-    match case.verdict {
-        Verdict::Agrees | Verdict::NeedsWavelengths => {
-            assert!(agrees, "{}, {carried:?}: {found:?}", case.name)
-        }
-        Verdict::Coat => assert!(found.bias.abs() < 0.012, "{}: {found:?}", case.name),
-    }
+    let is_right = match case.verdict {
+        Verdict::Agrees | Verdict::NeedsWavelengths => found.is_close(),
+        Verdict::Coat => found.bias.abs() < 8e-3 && has_bright_coats(&of),
+    };
+    assert!(is_right, "{}, {carried:?}: {found:?}", case.name);
 }
 
 #[test]

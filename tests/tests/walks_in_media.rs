@@ -112,6 +112,29 @@ fn a_caustic_in_fog_is_found_from_the_light() {
     assert!(lost > 5.0 * pixels, "paths are off by {lost}, walks from both ends by {pixels}");
 }
 
+/// The same under a lamp that paths meet: all light of the beam is theirs, and none of it is other than the lamp's by glass.
+#[test]
+fn a_caustic_in_fog_under_a_wide_lamp_is_that_of_paths() {
+    let beam = |glass: &str| {
+        format!(
+            "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 AreaLightSource \"diffuse\" \"rgb L\" [5 4 3]\n\
+             Shape \"disk\" \"float radius\" 1.2 AttributeEnd\n\
+             AttributeBegin {glass} Translate 0 3.9 0 Shape \"sphere\" \"float radius\" 0.6 AttributeEnd\n{THINGS}{FILLED}"
+        )
+    };
+    let glass = beam("Material \"dielectric\" \"float eta\" 1.5");
+    let (samples, bias) =
+        if std::env::var_os("DURER_SLOW").is_some() { (32_768, 0.005) } else { (2048, 0.025) };
+    let world = format!("{}{glass}", fog(EVEN));
+    agree("beam", ("", &world), (samples, Carried::Rgb), [(bias, 0.2), (bias, 0.2)]);
+    let dark = format!("{}{}", fog(EVEN), beam("Material \"diffuse\" \"rgb reflectance\" [0 0 0]"));
+    let of = |world: &str| {
+        total(&means(&picture("\"bdpt\" \"integer maxdepth\" 4", "", world, (256, Carried::Rgb))))
+    };
+    let (all, straight) = (of(&world), of(&dark));
+    assert!(straight < 0.8 * all, "glass brings next to nothing: {all}, without it {straight}");
+}
+
 #[test]
 fn grids_and_clouds_are_those_of_paths() {
     for (name, params) in grids() {

@@ -5,7 +5,7 @@
 //! 1997, section 8.3.2; Dutré, Lafortune and Willems 1993). Caustics are found where paths from the eye look for them in
 //! vain. What is seen in a mirror or through glass is not: nothing can be connected there. Lights themselves, the sky, and
 //! what glows in media are seen by eye rays. In media there are no cosines: a particle there adds `P f I`, with what is left
-//! on the way to the camera; nothing is sent by what glows.
+//! on the way to the camera.
 use durer_core::spectrum::Spectrum;
 use durer_scene::{Args, Kind, Schema};
 
