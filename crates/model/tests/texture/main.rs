@@ -16,8 +16,8 @@ use durer_model::{
     texture::{Footprint, Texture, TextureAt, textures},
 };
 use durer_scene::{
-    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, TextureDesc,
-    TextureValue,
+    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, Ptex,
+    PtexFace, PtexShape, TextureDesc, TextureValue,
 };
 
 /// One image under every name but "missing.png".
@@ -35,6 +35,12 @@ impl Assets for Files {
             "missing.png" => Err(AssetError::Missing { path: path.to_owned() }),
             _ => Ok(Arc::new(self.0.clone())),
         }
+    }
+    /// A face that is the image's first texel.
+    fn ptex(&self, _: &str) -> Result<Arc<Ptex>, AssetError> {
+        let face = PtexFace { log2: [0, 0], first: 0, beside: [None; 4], is_part: false };
+        let texels = Arc::new(self.0.clone());
+        Ok(Arc::new(Ptex { shape: PtexShape::Quads, faces: vec![face], texels, passed_over: Vec::new() }))
     }
 }
 
