@@ -16,8 +16,8 @@ use durer_model::{
     texture::{Footprint, Texture, TextureAt, textures},
 };
 use durer_scene::{
-    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, Ptex,
-    PtexFace, PtexShape, TextureDesc, TextureValue,
+    Args, AssetError, Assets, Diagnostics, Image, ImageData, Mesh, Missing, Node, Params, Ptex, PtexFace,
+    PtexShape, TextureDesc, TextureValue,
 };
 
 /// One image under every name but "missing.png".
