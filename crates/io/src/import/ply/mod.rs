@@ -164,7 +164,7 @@ fn span_faces(rows: &mut Rows) {
     let ends = if rows.ends.is_empty() { triangles.collect() } else { rows.ends.clone() };
     for end in ends {
         // Of faces with more corners nobody says.
-        rows.coords.extend((start..end).map(|i| Point2::from(SQUARE[(i - start) % 4])));
+        rows.coords.extend(SQUARE.into_iter().cycle().take(end - start).map(Point2::from));
         start = end;
     }
 }
