@@ -128,6 +128,28 @@ fn rays_that_go_in_come_out_also_along_faces_and_edges_of_cells() {
 }
 
 #[test]
+fn surfaces_on_faces_between_cells_have_no_gaps() {
+    let mut random = Random::new(17);
+    for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+        // A layer of zeros at 0.25.
+        let wall = made(grid(9, |p| sign * (p[axis] - 0.25)));
+        for _ in 0..20_000 {
+            let mut point = || DVec3::from([(); 3].map(|()| random.between(-0.9, 0.9)));
+            let (mut through, from) = (point(), point());
+            through[axis] = 0.25;
+            if (from[axis] - 0.25).abs() < 1e-3 {
+                continue;
+            }
+            let line = ray(from, (through - from).normalize());
+            let hit = wall.intersect(&line).unwrap_or_else(|| panic!("{axis} {sign}: {line:?} goes through"));
+            assert!((f64::from(line.at(hit.t).to_array()[axis]) - 0.25).abs() < 1e-6);
+            let s = wall.surface(&line, &hit);
+            assert!(wall.intersect(&s.spawn(line.d, 0.0)).is_none(), "{axis} {sign}: {line:?} is met twice");
+        }
+    }
+}
+
+#[test]
 fn thin_walls_within_a_cell_are_met_twice() {
     // Two zeros of one cubic: inside only near the middle of a cell.
     let values = vec![1.0, -0.4, -0.4, 1.0, -0.4, 1.0, 1.0, -0.4];

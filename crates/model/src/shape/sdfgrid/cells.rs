@@ -223,7 +223,15 @@ impl Cells {
                     (a, before) = (b, after);
                 }
             } else {
-                before = self.corners(cell)[0];
+                // All its values are of one sign: if it is the other one, the surface is the face that led here.
+                let sign = self.corners(cell).into_iter().find(|v| *v != 0.0).unwrap_or(before);
+                if before * sign < 0.0 {
+                    let slope = self.gradient_by(cell, o + d * t).dot(d);
+                    if let Some(found) = accepts(t, slope) {
+                        return Some(found);
+                    }
+                }
+                before = sign;
             }
             let next = cell[axis] as i64 + if d[axis] > 0.0 { 1 } else { -1 };
             if end > to || !(0..self.size[axis] as i64 - 1).contains(&next) {
