@@ -124,7 +124,7 @@ fn drawn_directions_pass_a_chi_square_test() {
         let around = if phase.is_symmetric() { 1 } else { AROUND };
         let bin = |d: Vector3| {
             let d = frame.to_local(d);
-            let turn = (d.y.atan2(d.x) / std::f32::consts::TAU).rem_euclid(1.0);
+            let turn = (durer_core::math::float::atan2(d.y, d.x) / std::f32::consts::TAU).rem_euclid(1.0);
             let row = ((d.z + 1.0) * 0.5 * BINS as f32).clamp(0.0, BINS as f32 - 1.0) as usize;
             row * around + ((turn * around as f32) as usize).min(around - 1)
         };
