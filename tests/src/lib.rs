@@ -8,7 +8,14 @@ pub mod small;
 use std::path::{Path, PathBuf};
 
 use durer::{
-    Distribution, Imported, Options, Prepared, Rendered, Show, import::pbrt, integrator::Sampling, prepare,
+    Distribution, Imported, Options, Prepared, Rendered, Show,
+    film::ToneMap,
+    image::{NamedChannel, PictureFormat, read_exr_channels},
+    import::pbrt,
+    integrator::Sampling,
+    picture::{Look, Picture},
+    prepare,
+    scene::Limits,
 };
 
 /// A scene in our text language, imported.
@@ -40,6 +47,25 @@ pub fn render(prepared: &Prepared) -> Rendered {
 /// The bits of every pixel's mean.
 pub fn bits(rendered: &Rendered) -> Vec<[u32; 3]> {
     rendered.film.pixels().iter().map(|p| p.mean().map(f32::to_bits)).collect()
+}
+
+/// The EXR file of a picture, as bytes and read again.
+///
+/// # Panics
+/// If it cannot be written or read.
+pub fn exr(prepared: &Prepared, rendered: &Rendered) -> (Vec<u8>, Vec<NamedChannel>) {
+    let picture = Picture {
+        scene: "test",
+        prepared,
+        pixels: rendered.film.pixels(),
+        layers: rendered.film.layers(),
+        render: Default::default(),
+        interrupted: false,
+    };
+    let look = Look { exposure: 0.0, tonemap: ToneMap::None };
+    let bytes = picture.encode(PictureFormat::Exr, look).expect("a file");
+    let (_, _, read) = read_exr_channels(&bytes, "test.exr", Limits::default()).expect("channels");
+    (bytes, read)
 }
 
 /// The folder of real files that tests look at, if it is there: `DURER_SHARED`, else `../shared`. Says loudly that the

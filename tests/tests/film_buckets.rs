@@ -1,12 +1,9 @@
 //! Light by its wavelength: pbrt-v4's film `spectral`.
 use durer::{
     Options, Prepared,
-    image::{PictureFormat, read_exr_channels},
-    picture::{Look, Picture},
-    scene::Limits,
     spectrum::{Carried, Spectrum, luminance},
 };
-use durer_tests::{render, scene, small::BOX};
+use durer_tests::{exr, render, scene, small::BOX};
 
 /// A light whose curve has corners at the ends of buckets of 10 nm, and what it is between them.
 const CORNERS: [(f32, f32); 4] = [(360.0, 1.0), (500.0, 2.0), (600.0, 0.5), (830.0, 3.0)];
@@ -133,17 +130,7 @@ fn threads_change_no_bucket() {
 fn a_file_follows_the_layout_for_spectral_pictures() {
     let prepared = wall("\"integer nbuckets\" 2", "path", 4, &glow(&corners()));
     let rendered = render(&prepared);
-    let picture = Picture {
-        scene: "wall",
-        prepared: &prepared,
-        pixels: rendered.film.pixels(),
-        layers: rendered.film.layers(),
-        render: Default::default(),
-        interrupted: false,
-    };
-    let look = Look { exposure: 0.0, tonemap: durer::film::ToneMap::None };
-    let bytes = picture.encode(PictureFormat::Exr, look).expect("a file");
-    let (_, _, read) = read_exr_channels(&bytes, "x.exr", Limits::default()).expect("channels");
+    let (bytes, read) = exr(&prepared, &rendered);
     let names: Vec<&str> = read.iter().map(|channel| channel.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "S0.477,500nm", "S0.712,500nm"]);
     let holds = |text: &[u8]| bytes.windows(text.len()).any(|window| window == text);

@@ -2,11 +2,9 @@
 use durer::{
     Options, Prepared,
     film::{Layer, Tile},
-    image::{PictureFormat, read_exr_channels},
-    picture::{Look, Picture},
-    scene::{Limits, Severity},
+    scene::Severity,
 };
-use durer_tests::{bits, import, render, scene, small::BOX};
+use durer_tests::{bits, exr, import, render, scene, small::BOX};
 
 const EDGE: u32 = 8;
 /// Half the side of the picture at distance 1.
@@ -196,19 +194,9 @@ fn wavelengths_see_the_same_surfaces_and_about_the_same_albedo() {
 fn a_file_holds_all_layers_under_the_names_of_pbrt() {
     let prepared = picture("\"gbuffer\"", "", 2, "Shape \"sphere\"");
     let rendered = render(&prepared);
-    let (pixels, layers) = (rendered.film.pixels(), rendered.film.layers());
+    let layers = rendered.film.layers();
     let p = layers.iter().find(|layer| layer.name == "P.Z").expect("places").values.clone();
-    let picture = Picture {
-        scene: "ball",
-        prepared: &prepared,
-        pixels,
-        layers,
-        render: Default::default(),
-        interrupted: false,
-    };
-    let look = Look { exposure: 0.0, tonemap: durer::film::ToneMap::None };
-    let bytes = picture.encode(PictureFormat::Exr, look).expect("a file");
-    let (_, _, read) = read_exr_channels(&bytes, "x.exr", Limits::default()).expect("channels");
+    let (_, read) = exr(&prepared, &rendered);
     let names: Vec<&str> = read.iter().map(|channel| channel.name.as_str()).collect();
     let expected = "Albedo.B Albedo.G Albedo.R B G N.X N.Y N.Z Ns.X Ns.Y Ns.Z P.X P.Y P.Z R RelativeVariance.B \
                     RelativeVariance.G RelativeVariance.R Variance.B Variance.G Variance.R dzdx dzdy u v";

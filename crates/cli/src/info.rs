@@ -44,7 +44,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<Exit> {
     // A library of materials has nothing to draw, but can be looked into.
-    let wishes = durer::Options { nothing: Missing::Warn, ..args.scene.wishes() };
+    let wishes = durer::Options { nothing: Missing::Warn, layers: true, ..args.scene.wishes() };
     let mut loaded = load(&args.scene.scene, &wishes);
     let failed = loaded.prepared.is_none();
     if failed {

@@ -22,7 +22,7 @@ pub(super) struct Memory {
     pub(super) textures: u64,
     /// Tables of measured materials, those of a file once.
     pub(super) measured: u64,
-    /// What a render will sum into.
+    /// What a render will sum into, layers beside colours included.
     pub(super) film: u64,
     /// Most that the process held at a time so far; `None` where the system does not tell.
     pub(super) peak: Option<u64>,
@@ -36,6 +36,7 @@ impl Memory {
         // The block being filled, and a film per digit of the number of blocks.
         let blocks = prepared.settings.samples.div_ceil(BLOCK);
         let films = 1 + u64::from(u32::BITS - blocks.leading_zeros());
+        let layers = view.layers.map_or(0, |layers| layers.bytes());
         Self {
             hierarchy: prepared.scene.accel.stats().bytes,
             hierarchy_expected: report.expected_bytes,
@@ -44,7 +45,7 @@ impl Memory {
             meshes_placed: report.placed_mesh_bytes,
             textures: textures + report.texture_bytes,
             measured: report.measured_bytes,
-            film: pixels * size_of::<Pixel>() as u64 * films,
+            film: pixels * (size_of::<Pixel>() as u64 * films + layers),
             peak: peak(),
         }
     }

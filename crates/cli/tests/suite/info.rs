@@ -116,6 +116,17 @@ fn a_mesh_that_is_placed_thrice_is_described_once() {
 }
 
 #[test]
+fn the_picture_holds_its_layers_too() {
+    let spectral = ROOM.replace("Film \"rgb\"", "Film \"spectral\" \"integer nbuckets\" 4");
+    let place = Place::new().with("room.pbrt", ROOM).with("spectral.pbrt", &spectral);
+    let [alone, with] = ["room", "spectral"].map(|scene| {
+        place.done(&format!("info {scene}.pbrt --json")).json()["memory"]["film"].as_u64().expect("bytes")
+    });
+    // Each bucket's sum and weight, and its splats.
+    assert_eq!(with - alone, 32 * 24 * 4 * (8 + 8 + 16));
+}
+
+#[test]
 fn phases_are_parts_of_the_whole() {
     let seconds = Place::new().done("info whitted --json").json()["seconds"].clone();
     let of = |key: &str| seconds[key].as_f64().expect("a time");

@@ -44,8 +44,9 @@ fn sin_cos_of_eighth(x: f32) -> (f32, f32) {
 #[inline]
 pub fn cosine_hemisphere(u: Point2) -> Vector3 {
     let [x, y] = concentric_disk(u);
-    // At the rim rounding leaves nothing: a direction in the surface has no density.
-    let z = (1.0 - sqr(x) - sqr(y)).max(f32::MIN_POSITIVE).sqrt();
+    // NUMERICS: at the rim rounding leaves nothing, half a step on the average. A direction in the surface would have no density,
+    // and a weight as large as the rounding of another frame is beside it.
+    let z = (1.0 - sqr(x) - sqr(y)).max(0.25 * f32::EPSILON).sqrt();
     Vector3::new(x, y, z)
 }
 
@@ -60,6 +61,14 @@ mod tests {
             let (sin, cos) = sin_cos_of_eighth(x);
             assert!((f64::from(sin) - f64::from(x).sin()).abs() < 1e-7, "{x}");
             assert!((f64::from(cos) - f64::from(x).cos()).abs() < 1e-7, "{x}");
+        }
+    }
+
+    #[test]
+    fn no_direction_lies_in_the_surface() {
+        for u in [[0.0, 0.5], [0.5, 0.0], [0.0, 0.0], [1.0, 0.5]] {
+            let d = cosine_hemisphere(Point2::new(u[0], u[1]));
+            assert!((1e-4..3e-4).contains(&d.z) && (d.length() - 1.0).abs() < 1e-6, "{u:?}: {d:?}");
         }
     }
 

@@ -23,8 +23,6 @@ use crate::{
     probe::{Choice, ChosenBy, Probe, RayKind, StopReason},
 };
 
-/// Cosines that come by rounding only.
-const RIM: f32 = 1e-12;
 /// Surfaces passed in a row at most.
 const MOST_PASSED: u32 = 1000;
 
@@ -280,9 +278,6 @@ fn adjoint(s: &Shading, scattered: &Scattered) -> Spectrum {
     let d = s.frame.to_world(scattered.wi);
     let [before, after] = [s.wo, d].map(|w| s.surface.n_g.dot(w).abs());
     match scattered.pdf {
-        // NUMERICS: a direction in the surface, to rounding, has next to no density, while the cosine by the other normal is as
-        // large as that rounding: particles became 1e12 times as strong, one in ten million.
-        Some(_) if scattered.wi.z.abs() < RIM => Spectrum::BLACK,
         Some(pdf) => {
             let f = s.bsdf.eval_with_pdf(scattered.wi, s.wo_local).0;
             f * (s.wo_local.z.abs() / before * after / pdf)
