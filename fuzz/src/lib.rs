@@ -11,7 +11,7 @@ use std::{fs, path::PathBuf, sync::OnceLock};
 
 use durer_core::math::Interval;
 use durer_io::{
-    FileAssets,
+    FileAssets, hush_decoders,
     import::{self, Imported, Moment, Play, Reading},
 };
 use durer_scene::{Assets, ImageData, Limits, Location};
@@ -27,6 +27,7 @@ const TRIANGLE: &[u8] =
 fn folder() -> &'static PathBuf {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
+        hush_decoders();
         let folder = std::env::temp_dir().join(format!("durer-fuzz-{}", std::process::id()));
         fs::create_dir_all(&folder).expect("a folder");
         for (name, bytes) in [("a.pfm", PIXEL), ("a.ply", TRIANGLE), ("a.mtl", b"newmtl a\nmap_Kd a.pfm\n")] {
@@ -75,6 +76,7 @@ pub fn volume(name: &str, bytes: &[u8]) {
 
 /// Reads a picture that is called `name`.
 pub fn picture(name: &str, bytes: &[u8]) {
+    hush_decoders();
     if let Ok(image) = durer_io::image::read(bytes, name, Limits::default()) {
         let count = match &image.data {
             ImageData::U8(values) => values.len(),

@@ -76,6 +76,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    durer::hush_decoders();
     let words: Vec<_> = std::env::args_os().collect();
     let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,

@@ -35,7 +35,7 @@ pub use durer_accel as accel;
 pub use durer_core::{Id, glam, math, sampling, spectrum};
 pub use durer_draw as draw;
 pub use durer_io::{
-    FileAssets, export, image,
+    FileAssets, export, hush_decoders, image,
     import::{self, FORMATS, Imported},
 };
 pub use durer_model as model;

@@ -3,6 +3,7 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod assets;
+mod caught;
 pub mod export;
 mod gzip;
 pub mod image;
@@ -12,3 +13,4 @@ mod tensor;
 mod volume;
 
 pub use assets::FileAssets;
+pub use caught::hush_decoders;

@@ -1,6 +1,4 @@
 //! KTX 2 files whose pixels Basis Universal packed for graphics cards: what glTF's KHR_texture_basisu brings.
-use std::panic::catch_unwind;
-
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use durer_scene::{AssetError, Image, ImageData};
 
@@ -8,6 +6,7 @@ use super::{
     ktx::{HEADER, KTX, refused},
     source::Source,
 };
+use crate::caught::caught;
 
 /// Where a header tells of what all levels share.
 const SHARED: usize = 64;
@@ -24,10 +23,10 @@ pub(super) fn decode(source: &Source<'_>, [width, height]: [u32; 2]) -> Result<I
         return Err(damaged());
     }
     // Damaged pixels make the decoder panic, as fuzzing shows: what it had in hand is gone with it.
-    let (has_alpha, rgba) = match catch_unwind(|| unpacked(source.bytes, (width, height))) {
-        Ok(Ok(unpacked)) => unpacked,
-        Ok(Err(Refused::Kind)) => return Err(refused(source, "of a rare kind")),
-        Ok(Err(Refused::Damage)) | Err(_) => return Err(damaged()),
+    let (has_alpha, rgba) = match caught(|| unpacked(source.bytes, (width, height))) {
+        Some(Ok(unpacked)) => unpacked,
+        Some(Err(Refused::Kind)) => return Err(refused(source, "of a rare kind")),
+        Some(Err(Refused::Damage)) | None => return Err(damaged()),
     };
     let (pixels, _) = rgba.as_chunks::<4>();
     let (channels, bytes) = match has_alpha {

@@ -2,7 +2,7 @@
 //! Universal packed go to [`basis`](super::basis). Of several sizes the largest is read.
 //!
 //! Numbers are little-endian and rows follow each other without gaps. A single channel is grey.
-use std::{io::Read, panic::catch_unwind};
+use std::io::Read;
 
 use durer_scene::{AssetError, Image, ImageData};
 use exr::prelude::f16;
@@ -10,6 +10,7 @@ use flate2::bufread::ZlibDecoder;
 use ruzstd::StreamingDecoder;
 
 use super::{basis, source::Source};
+use crate::caught::caught;
 
 /// What messages call such files.
 pub(super) const KTX: &str = "KTX 2 file";
@@ -178,7 +179,7 @@ fn plain(source: &Source<'_>, texel: Texel, [width, height]: [u32; 2]) -> Result
     let stored = stored.ok_or_else(|| source.cut(KTX, "its pixel data"))?;
     let unpacked = match source.i32_at(44) {
         0 => Some(stored.to_vec()),
-        2 => catch_unwind(|| limited(StreamingDecoder::new(stored).ok()?, length)).ok().flatten(),
+        2 => caught(|| limited(StreamingDecoder::new(stored).ok()?, length)).flatten(),
         3 => limited(ZlibDecoder::new(stored), length),
         other => return Err(refused(source, &format!("packed in a way (supercompression {other})"))),
     };

@@ -15,6 +15,7 @@ use super::{
     NamedChannel,
     complaint::{self, WHAT},
 };
+use crate::caught::caught;
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
@@ -84,8 +85,8 @@ pub fn read_exr_channels(
 fn layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
     // exr 1.74.2 has assertions that damaged tile coordinates break (found by the test with mutilated files). Nothing
     // outlives the closure, so there is no half-changed state to see.
-    std::panic::catch_unwind(|| checked_layers(source))
-        .unwrap_or_else(|_| Err(source.damaged(WHAT, "its header and its pixels contradict each other")))
+    caught(|| checked_layers(source))
+        .unwrap_or_else(|| Err(source.damaged(WHAT, "its header and its pixels contradict each other")))
 }
 
 fn checked_layers(source: &Source<'_>) -> Result<Vec<FlatLayer>, AssetError> {
