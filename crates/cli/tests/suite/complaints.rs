@@ -168,3 +168,17 @@ fn notes_are_for_those_who_ask() {
     );
     assert_eq!(place.done("render ball.pbrt --spp 1 --show depth --quiet").stderr, "");
 }
+
+#[test]
+fn what_a_decoder_panics_of_is_no_message() {
+    // Found by fuzzing: its pixels make the decoder's sums overflow, where they are checked.
+    let place = Place::new().with(
+        "scene.pbrt",
+        "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"damaged.ktx2\"\n\
+         Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n",
+    );
+    std::fs::write(place.path("damaged.ktx2"), include_bytes!("../files/damaged.ktx2")).expect("a file");
+    let told = place.run("info scene.pbrt").stderr;
+    assert!(!told.contains("panicked"), "{told}");
+    assert_eq!(told.contains("its pixel data cannot be decoded"), cfg!(debug_assertions), "{told}");
+}
