@@ -1,20 +1,16 @@
 //! Decoders of others that panic at damaged files: what they panic of becomes an error, and nobody needs to read about it.
 use std::{
-    cell::Cell,
-    panic::{self, UnwindSafe, catch_unwind},
+    panic,
     sync::Once,
+    thread::{self, Builder},
 };
 
-thread_local! {
-    static IS_DECODING: Cell<bool> = const { Cell::new(false) };
-}
+/// The threads that decode, known to the hook by their name: so nothing has to be kept of who is decoding.
+const DECODER: &str = "durer-decoder";
 
 /// What a decoder gives; `None` if it panics.
-pub(crate) fn caught<T>(decode: impl FnOnce() -> T + UnwindSafe) -> Option<T> {
-    let before = IS_DECODING.replace(true);
-    let decoded = catch_unwind(decode).ok();
-    IS_DECODING.set(before);
-    decoded
+pub(crate) fn caught<T: Send>(decode: impl FnOnce() -> T + Send) -> Option<T> {
+    thread::scope(|scope| Builder::new().name(DECODER.into()).spawn_scoped(scope, decode).ok()?.join().ok())
 }
 
 /// From now on the process's panic hook is not told of panics that are made errors by who reads a file: by default it prints
@@ -24,11 +20,15 @@ pub fn hush_decoders() {
     ONCE.call_once(|| {
         let told = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            if !IS_DECODING.get() {
+            if !is_decoder() {
                 told(info);
             }
         }));
     });
+}
+
+fn is_decoder() -> bool {
+    thread::current().name() == Some(DECODER)
 }
 
 #[cfg(test)]
@@ -37,16 +37,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_nothing_and_what_comes_later_is_told_of() {
-        assert_eq!(caught(|| 1), Some(1));
-        assert_eq!(
-            caught(|| if IS_DECODING.get() {
-                panic!("damaged")
-            }),
-            None
-        );
-        assert!(!IS_DECODING.get());
+    fn a_panic_is_nothing_and_only_decoders_are_not_told_of() {
+        assert_eq!(caught(is_decoder), Some(true));
+        assert_eq!(caught(|| panic!("damaged")), None::<()>);
+        assert!(!is_decoder());
         // Within each other too.
-        assert_eq!(caught(|| (caught(|| panic!("damaged")), IS_DECODING.get())), Some((None::<()>, true)));
+        assert_eq!(caught(|| (caught(|| panic!("damaged")), is_decoder())), Some((None::<()>, true)));
     }
 }
