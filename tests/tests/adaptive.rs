@@ -125,6 +125,20 @@ fn what_hides_behind_something_is_not_looked_for() {
     assert!(splits.searches > 0, "the balls were not seen to be near");
 }
 
+/// Rows as high as half a pixel, a black one and a white one in each: all corners are of one colour.
+#[test]
+fn a_pattern_as_fine_as_the_corners_is_seen() {
+    let rows = "AttributeBegin\nTranslate -500 0.0125 -500\nScale 1000 0.05 1000\n\
+                Texture \"rows\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3\nAttributeEnd\n\
+                Material \"classic\" \"rgb diffuse\" [0 0 0] \"texture ambient\" \"rows\"\n\
+                Translate 0 0 10\nShape \"disk\" \"float radius\" 100\n";
+    let options = Options { antialias: usual(), ..Options::default() };
+    let rendered = render(&scene(&format!("Integrator \"whitted\"\n{}{rows}", balls([], 1.0)), &options));
+    let pixels = rendered.film.pixels();
+    let wrong = pixels.iter().map(|p| (p.mean()[0] - 0.5).powi(2)).sum::<f32>() / pixels.len() as f32;
+    assert!(wrong.sqrt() < 0.08, "wrong by {}", wrong.sqrt());
+}
+
 #[test]
 fn large_things_do_not_split_what_is_around_them() {
     let of = |small_objects| {

@@ -104,7 +104,7 @@ pub(crate) struct FilmOptions {
     #[arg(requires = "antialias")]
     aa_depth: Option<u32>,
     /// A square is split if the largest difference between its corners, where 0 is black and 1 white to the eye,
-    /// times the 1.5th power of its edge in pixels is larger than this, with --antialias adaptive [default: 1/16].
+    /// times the 1.5th power of its edge in pixels is larger than this, with --antialias adaptive [default: 1/14].
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     #[arg(requires = "antialias")]
     aa_threshold: Option<f32>,

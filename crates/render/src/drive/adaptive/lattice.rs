@@ -4,6 +4,8 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
+use durer_core::sampling::{Dim, Sampler, SamplerKind};
+
 use super::{GRID, contrast::spread, value};
 use crate::{
     Contribution,
@@ -24,6 +26,18 @@ pub(in crate::drive) fn corners(job: &Job<'_>, window: Tile) -> Tile {
         x1: (window.x1 + 2).min(view.width + 1),
         y1: (window.y1 + 2).min(view.height + 1),
     }
+}
+
+/// Where the ray of a corner goes through: within a quarter of a pixel around it, in the picture. Exact corners lie in rows, and
+/// a pattern as fine as the rows looks the same in all of them, so that nobody would see that it is there.
+pub(super) fn corner(job: &Job<'_>, at: [u32; 2]) -> [u32; 2] {
+    let (view, settings) = (&job.scene.view, job.settings);
+    let u = Sampler::new(SamplerKind::Independent, settings.seed, at, 0, 2).d2(Dim::Pixel);
+    let near = |corner: u32, u: f32, last: u32| {
+        let place = (corner * GRID + (u * (GRID / 2) as f32) as u32).saturating_sub(GRID / 4);
+        place.min(last * GRID)
+    };
+    [near(at[0], u.x, view.width), near(at[1], u.y, view.height)]
 }
 
 /// Linear RGB at the corners of pixels; NaN where there is none.
@@ -113,7 +127,7 @@ fn trace_tile(job: &Job<'_>, watch: &Watch<'_>, tile: Tile, values: &mut Vec<[f3
             // A corner that is bad is told as that of the pixel to its lower right, if there is one.
             let pixel = [x.min(view.width - 1), y.min(view.height - 1)];
             let bad = BadSample { pixel, sample: (x - pixel[0]) + 2 * (y - pixel[1]) };
-            values.push(value(job, [x * GRID, y * GRID], &mut out, &mut done, bad));
+            values.push(value(job, corner(job, [x, y]), &mut out, &mut done, bad));
         }
     }
     done.splits = Some(Splits { corners: done.samples, ..Splits::default() });

@@ -1,8 +1,8 @@
 //! Adaptive antialiasing (Whitted 1980, "An improved illumination model for shaded display", section on antialiasing).
 //!
-//! A pixel is a square with an eye ray through each corner. If the four look alike it is their average; else it is split
-//! into four, down to a limit, and the parts count by their areas. What is small enough to lie between the rays is looked
-//! for apart ([`things`]).
+//! A pixel is a square with an eye ray through, or rather near, each corner ([`lattice::corner`] says why). If the four
+//! look alike it is their average; else it is split into four, down to a limit, and the parts count by their areas. What
+//! is small enough to lie between the rays is looked for apart ([`things`]).
 //!
 //! In two waves, so that the picture depends neither on tiles nor on threads: first all corners, each shared by up to four
 //! pixels, as a film of its own; then every pixel by itself, from that film as it is. Places are counted in 256ths of a
@@ -19,7 +19,8 @@
 //! that another split takes.
 //!
 //! What is thin can pass between four corners that look alike, but seldom between all those around: a pixel is split once
-//! for a difference among the corners of its neighbours, which takes half of the error. These two rules are not Whitted's.
+//! for a difference among the corners of its neighbours, which takes half of the error. These two rules and the places of
+//! corners are not Whitted's.
 mod contrast;
 mod lattice;
 mod spot;
@@ -68,7 +69,7 @@ pub struct Adaptive {
     /// How many times in a row at most, up to [`MAX_SPLITS`].
     pub depth: u32,
     /// A square is split if the largest difference between its corners, where 0 is black and 1 is white to the eye, times
-    /// the length of its edge in pixels to the power of 1.5 is larger than this; a pixel also if there are four times as
+    /// the length of its edge in pixels to the power of 1.5 is larger than this; a pixel also if there are 3.5 times as
     /// large differences around it. 0 splits at every difference.
     pub threshold: f32,
     /// Whether objects between the rays are looked for.
@@ -77,14 +78,14 @@ pub struct Adaptive {
 
 impl Default for Adaptive {
     fn default() -> Self {
-        Self { depth: 4, threshold: 1.0 / 16.0, small_objects: SmallObjects::Found }
+        Self { depth: 4, threshold: 1.0 / 14.0, small_objects: SmallObjects::Found }
     }
 }
 
 impl Adaptive {
     /// What differences between the corners of neighbours may be.
     fn neighbour_threshold(&self) -> f32 {
-        4.0 * self.threshold
+        3.5 * self.threshold
     }
 }
 
@@ -270,7 +271,7 @@ impl<'a> Sounding<'a> {
         let start = Instant::now();
         let mut done = TileDone { counters: Some(Counters::default()), ..TileDone::default() };
         let bad = BadSample { pixel: [x, y], sample: 0 };
-        value(self.job, [x * GRID, y * GRID], &mut Contribution::default(), &mut done, bad);
+        value(self.job, lattice::corner(self.job, [x, y]), &mut Contribution::default(), &mut done, bad);
         let search = self.things.as_ref().map(|things| Search::new(things, self.job, tile));
         let spots = search.map_or_else(Vec::new, |search| search.spots([x, y]));
         let mut canvas = Canvas::default();

@@ -2,8 +2,13 @@
 use durer_accel::Hit;
 
 use super::{
-    Adaptive, GRID, MAX_SPLITS, add_average, contrast::contrast, eye, lattice::Lattice, spot::Spot,
-    things::Things, value,
+    Adaptive, GRID, MAX_SPLITS, add_average,
+    contrast::contrast,
+    eye,
+    lattice::{Lattice, corner},
+    spot::Spot,
+    things::Things,
+    value,
 };
 use crate::{
     Contribution,
@@ -49,6 +54,8 @@ pub(super) struct Square<'a> {
     canvas: &'a mut Canvas,
     done: &'a mut TileDone,
     out: Contribution,
+    /// Whether rays went through the very corners of the pixel, and not only near them.
+    is_exact: bool,
     /// In the order in which they are counted, as places of the picture.
     places: Vec<[u32; 2]>,
     sum: Pixel,
@@ -98,7 +105,8 @@ impl<'a> Square<'a> {
         let depth = how.depth.min(MAX_SPLITS);
         canvas.begin(depth);
         let (out, sum) = (Contribution::default(), Pixel::default());
-        Self { job, how, depth, pixel, spots, things: None, canvas, done, out, places: Vec::new(), sum }
+        let (is_exact, places) = (false, Vec::new());
+        Self { job, how, depth, pixel, spots, things: None, canvas, done, out, is_exact, places, sum }
     }
 
     /// Says what hits belong to.
@@ -149,6 +157,15 @@ impl<'a> Square<'a> {
 
     fn split(&mut self, part: Part) {
         self.done.splits.get_or_insert_default().by_level[part.level as usize] += 1;
+        if !self.is_exact && !self.spots.is_empty() {
+            // What is small is met between exact corners, not between rays near them.
+            self.is_exact = true;
+            self.canvas.hits.clear();
+            for at in part.corners() {
+                let value = self.sample(at);
+                self.note(at, value);
+            }
+        }
         part.middles().into_iter().for_each(|at| self.trace(at));
         part.quarters().into_iter().for_each(|quarter| self.part(quarter));
     }
@@ -215,7 +232,11 @@ impl<'a> Square<'a> {
     }
 
     fn place(&self, at: [u32; 2]) -> [u32; 2] {
-        [self.pixel[0] * GRID + at[0], self.pixel[1] * GRID + at[1]]
+        let [x, y] = self.pixel;
+        if !self.is_exact && at.iter().all(|v| v % GRID == 0) {
+            return corner(self.job, [x + at[0] / GRID, y + at[1] / GRID]);
+        }
+        [x * GRID + at[0], y * GRID + at[1]]
     }
 
     fn index(&self, at: [u32; 2]) -> usize {
