@@ -210,7 +210,7 @@ fn who_does_not_walk_says_so_and_sees_matte_bodies() {
     let world = "MakeNamedMaterial \"wax\" \"string type\" \"subsurface\" \"rgb reflectance\" [0.5 0.5 0.5] \
                  \"rgb mfp\" [0.01 0.01 0.01]\nNamedMaterial \"wax\"\n";
     for (word, says) in
-        [("whitted", true), ("bdpt", true), ("direct", true), ("path", false), ("volpath", false)]
+        [("whitted", true), ("sppm", true), ("direct", true), ("path", false), ("volpath", false)]
     {
         let mut imported =
             import(&format!("Integrator \"{word}\"\nWorldBegin\n{SKY}{world}{}", half_space("")));
@@ -220,7 +220,7 @@ fn who_does_not_walk_says_so_and_sees_matte_bodies() {
     }
     // As bright as what walks, but for how that depends on the view.
     let of = |word: &str| seen("0 0 1", word, &(SKY.to_owned() + world + &half_space("")), 4096)[1];
-    let (walked, matte) = (of(DEEP), of("\"bdpt\" \"integer maxdepth\" 20"));
+    let (walked, matte) = (of(DEEP), of("\"direct\" \"integer maxdepth\" 20"));
     near(matte, walked, 0.04, "matte");
 }
 

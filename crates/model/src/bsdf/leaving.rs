@@ -3,6 +3,7 @@
 //! One direction below belongs to one above, or to few, and hardly any light would ever be found from there. As in pbrt-v4 what
 //! leaves is spread as an even light from below would be: `f = (1 - F(o)) (1 - F(i)) / (pi (1 - mean of F))`, with `F(o)` the
 //! reflectance below and `F(i)` that above. What is kept on the whole is as it would be; directions are those of even light.
+//! Seen from above, it is how particles get in that shall be met by that: the same `f`, turned round.
 use std::f32::consts::FRAC_1_PI;
 
 use durer_core::{
@@ -15,12 +16,12 @@ use durer_core::{
 
 use super::{Bsdf, Interface, Lobe, Matte, Split, fresnel_dielectric};
 
-/// What leaves, as a lobe seen from below.
+/// What leaves, as a lobe seen from below, or what gets in, seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaving {
-    /// What gets through towards the viewer below.
+    /// What gets through towards the viewer.
     passed: Spectrum,
-    /// Index below, divided by that above.
+    /// Index on the viewer's side, divided by that on the other.
     pub(super) eta: f32,
     /// `1 - mean of F` above.
     mean: f32,
@@ -41,7 +42,7 @@ impl Leaving {
 }
 
 impl Interface {
-    /// Adds this interface without what passes it, and that apart; seen along `wo`.
+    /// Adds this interface without what passes it, and that apart, spread as even light would be; seen along `wo`.
     pub(super) fn leave(&self, wo: Vector3, bsdf: &mut Bsdf) {
         let far_over_near = self.eta_seen(wo);
         let (_, passed) = self.shares(wo.z.abs(), far_over_near);
@@ -52,8 +53,9 @@ impl Interface {
             }
         };
         let eta = 1.0 / far_over_near;
+        let above = if wo.z > 0.0 { far_over_near } else { eta };
         bsdf.add(Lobe::Interface(Self { split, ..*self }));
-        bsdf.add(Lobe::Matte(Matte::Leaving(Leaving { passed, eta, mean: 1.0 - fresnel_mean(eta) })));
+        bsdf.add(Lobe::Matte(Matte::Leaving(Leaving { passed, eta, mean: 1.0 - fresnel_mean(above) })));
     }
 }
 

@@ -228,6 +228,14 @@ impl Lobe<'_> {
             _ => self.look().map_or(1.0, |glossy| 1.0 - glossy.mirror_share()),
         }
     }
+    /// Whether it is a boundary of a body that hardly spreads what passes it.
+    pub(super) fn is_narrow(&self) -> bool {
+        match self {
+            Self::Interface(_) => true,
+            Self::Blurred(blurred) => blurred.is_narrow(),
+            _ => false,
+        }
+    }
     /// The glossy lobe that it is, or looks like to integrators that draw no directions.
     pub(super) fn look(&self) -> Option<Glossy> {
         match self {

@@ -177,7 +177,7 @@ impl<'a> Bsdf<'a> {
         }
     }
     /// Makes light that was scattered below leave interfaces, seen from below along `wo`, in all directions, unless they
-    /// blur it enough by themselves.
+    /// blur it enough by themselves. Seen from above light gets in so.
     pub fn leave(&mut self, wo: Vector3) {
         let mut all = Self { arriving: self.arriving, is_led: self.is_led, ..Self::default() };
         for lobe in self.lobes() {
@@ -188,6 +188,26 @@ impl<'a> Bsdf<'a> {
             }
         }
         *self = all;
+    }
+    /// Whether [`Bsdf::leave`] changes anything.
+    pub fn is_narrow(&self) -> bool {
+        self.lobes().any(Lobe::is_narrow)
+    }
+    /// What [`Bsdf::leave`] makes of boundaries: what gets through if light from `wo` comes from above, what is mirrored if it
+    /// comes from below; and what share of all light that is.
+    pub fn parted(&self, wo: Vector3) -> Option<(Self, f32)> {
+        let mut all = self.only(|lobe| lobe.is_narrow());
+        all.leave(wo);
+        let own = all.only(|lobe| matches!(lobe, Lobe::Matte(Matte::Leaving(_))) == (wo.z > 0.0));
+        let passed: f32 = own.lobes().map(|lobe| lobe.tint().mean()).sum();
+        let mirrored: f32 = own.sharp(wo).iter().map(|branch| branch.weight.mean()).sum();
+        let share = if wo.z > 0.0 { passed } else { mirrored }.min(1.0);
+        (share > 0.0).then_some((own, share))
+    }
+    /// The density of [`Bsdf::scatter`] at a direction on the other side if there were the boundaries of bodies only, 1/sr;
+    /// 0 where they are sharp.
+    pub fn crossing_pdf(&self, wo: Vector3, wi: Vector3) -> f32 {
+        self.only(|lobe| matches!(lobe, Lobe::Blurred(_))).eval_with_pdf(wo, wi).1
     }
     /// Value of all lobes that are not perfectly sharp, without the cosine. 1/sr.
     pub fn eval(&self, wo: Vector3, wi: Vector3) -> Spectrum {

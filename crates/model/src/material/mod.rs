@@ -76,6 +76,11 @@ pub trait Material: Debug + Send + Sync {
     fn is_walked(&self) -> bool {
         false
     }
+    /// Whether light walks there backwards as it does forwards: what it gets in by it gets out by, and what is below the
+    /// surface is the same everywhere.
+    fn walks_back(&self) -> bool {
+        false
+    }
     /// What light walks in that enters at a point.
     fn inside(&self, cx: &ShadeCx<'_>, at: &TextureAt) -> Option<Inside> {
         let _ = (cx, at);

@@ -221,6 +221,11 @@ impl Material for Subsurface {
     fn is_walked(&self) -> bool {
         true
     }
+    fn walks_back(&self) -> bool {
+        let (Stuff::Given { sigma_a: a, sigma_s: b } | Stuff::Asked { reflectance: a, mfp: b, .. }) =
+            &self.stuff;
+        a.even().is_some() && b.even().is_some()
+    }
     fn medium(&self) -> Option<Medium> {
         Some(self.medium.clone())
     }

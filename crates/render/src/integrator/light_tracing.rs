@@ -11,6 +11,7 @@ use durer_scene::{Args, Kind, Schema};
 
 use super::{
     Integrator, PATH_DEPTH, Particles, ROULETTE_DEPTH, Start, Transport,
+    below::Descent,
     vertices::{Stamina, straight_on},
     walk::{Rules, Walk, span},
 };
@@ -45,6 +46,9 @@ impl Transport for LightTracing {
     fn depth_limit(&self) -> Option<u32> {
         Some(self.rules.max_depth)
     }
+    fn walks(&self) -> bool {
+        true
+    }
     fn particles(&self) -> Particles {
         Particles::All
     }
@@ -56,7 +60,7 @@ impl Transport for LightTracing {
         probe: &mut P,
         out: &mut Contribution,
     ) {
-        let mut walk = Walk::in_media(&self.rules, cx, probe);
+        let mut walk = Walk::in_media(&self.rules, cx, probe, Descent::Mirrored);
         let (ray, kind, is_eye) = match start {
             Start::Eye(ray) => (PathRay { media: cx.scene.start, ..*ray }, RayKind::Eye, true),
             Start::Again(node) => (node.path, node.kind, false),
@@ -106,7 +110,9 @@ fn seen<P: Probe>(walk: &mut Walk<'_, P>, mut ray: PathRay, id: P::Id) -> Spectr
     let emission = met.as_ref().map_or(sent, |(s, _, left)| *left * s.sent_out() + sent);
     walk.probe.local(id, emission);
     if let Some((s, crossing, left)) = met {
-        let passed = left * s.bsdf.passed(s.wo_local);
+        // Below surfaces light is left to particles.
+        let is_open = walk.walked_in(&crossing.behind).is_none();
+        let passed = if is_open { left * s.bsdf.passed(s.wo_local) } else { Spectrum::BLACK };
         if passed.is_black() {
             walk.probe.stop(id, StopReason::OpaqueNoChildren, Spectrum::BLACK);
             walk.probe.result(id, emission);

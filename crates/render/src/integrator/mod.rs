@@ -5,6 +5,7 @@
 
 mod ambient_occlusion;
 mod bdpt;
+mod below;
 mod cast;
 mod distributed;
 mod first;

@@ -8,8 +8,12 @@ use durer_model::{
 
 use super::{
     super::{
+        below::{Descent, descend},
         shading::{LIGHT_BRANCH, Shading},
-        vertices::{End, Flight, Onward, Particle, Place, SCATTER_BRANCH, Vertex, chosen, kept, straight_on},
+        vertices::{
+            Asked, End, Flight, Onward, Particle, Place, SCATTER_BRANCH, Vertex, Walked, chosen, kept,
+            straight_on,
+        },
         walk::{Parts, Walk},
     },
     Bidirectional,
@@ -97,7 +101,14 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         };
         let (mut passed, mut sent) = (Spectrum::ONE, Spectrum::BLACK);
         let t = hit.map_or(f32::INFINITY, |hit| hit.t);
-        if let Some((floated, phase)) = self.walk.float(&mut ray, t) {
+        if let Some(below) = ray.below {
+            let flown = self.walk.fly_below(&mut ray, (&below, hit.as_ref()), id);
+            if let medium::End::Scattered(t) = flown.end {
+                let onward = self.walk.walk_on(&ray, &below, (t, flown.weight));
+                return self.follow(onward, Spectrum::BLACK, ray.throughput, id);
+            }
+            passed = flown.weight;
+        } else if let Some((floated, phase)) = self.walk.float(&mut ray, t) {
             sent = self.glow(&ray, *flight, (floated.sent, t));
             if P::RECORDS {
                 self.walk.report_floating(&ray, &medium::Flight { sent, ..floated }, id);
@@ -117,20 +128,26 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
             self.walk.probe.local(id, sent);
             return Step { radiance: sent, next: Some((ray, RayKind::Passing)) };
         };
+        let is_even = self.walk.leave(&ray, &mut s);
         s.bsdf.dim(left);
-        self.shade((ray, s, crossing), (left, sent), (flight, id))
+        let mut walked = self.walk.walked_at(&ray, &crossing);
+        walked.is_even = is_even;
+        self.shade((ray, s, crossing), (left, sent, walked), (flight, id))
     }
 
     /// What happens at a surface, before which the medium has `sent` light.
     fn shade(
         &mut self,
         (ray, s, crossing): (PathRay, Shading<'a>, Crossing),
-        (left, sent): (Spectrum, Spectrum),
+        (left, sent, mut walked): (Spectrum, Spectrum, Walked),
         (flight, id): (&mut Flight, P::Id),
     ) -> Step {
-        let p = s.surface.p;
-        let own = self.density(*flight, &ray, (p, s.surface.n_g.dot(s.wo).abs()));
-        let emission = left * self.met(&s, own, id);
+        let (cx, p) = (self.walk.cx, s.surface.p);
+        // Who begins in a body, and sees it clear, is alone with that.
+        let is_clear = ray.below.is_none() && self.walk.walked_in(&ray.media).is_some();
+        let from = if is_clear { Flight::OF_THE_EYE } else { *flight };
+        let own = self.density(from, &ray, (p, s.surface.n_g.dot(s.wo).abs()));
+        let emission = left * self.met(&s, (own, walked.is_walked), id);
         if P::RECORDS {
             let black = Spectrum::BLACK;
             let parts = Parts { arrived: left, emission, ambient: black, blurred_sky: black };
@@ -141,7 +158,11 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         let sampler = ray.sampler.fork(SCATTER_BRANCH);
         let scattered = s.scattered(&sampler);
         if let Some(through) = scattered.filter(|scattered| scattered.passes) {
-            let next = straight_on(&ray, (&s, &crossing), through.weight);
+            let mut next = straight_on(&ray, (&s, &crossing), through.weight);
+            if ray.below.is_some() || self.walk.walked_in(&crossing.behind).is_some() {
+                descend(cx, &ray, (&s, &crossing), BranchKind::Transmission, &mut next);
+                *flight = Flight::OF_THE_EYE;
+            }
             if P::RECORDS {
                 self.walk.probe.chosen(&chosen(&s, &through, (&sampler, 0.0)));
             }
@@ -149,14 +170,22 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         }
         // Of what is there in part only the rest was met.
         let there = 1.0 / (1.0 - s.bsdf.passing_chance(s.wo_local));
+        let keeps_side = self.walk.is_walked(&s);
         let onward = scattered.map(|scattered| {
-            Onward::of::<P>(&ray, (&s, &crossing), (&scattered, scattered.weight), &sampler)
+            let drawn = (&scattered, scattered.weight, keeps_side);
+            let mut onward = Onward::of::<P>(&ray, (&s, &crossing), drawn, &sampler);
+            if self.walk.descent != Descent::Flat {
+                descend(cx, &ray, (&s, &crossing), scattered.kind, &mut onward.child);
+            }
+            onward
         });
+        walked.is_glance =
+            walked.is_walked && scattered.is_some_and(|scattered| scattered.kind == BranchKind::Reflection);
         let end = match P::ACTIVE && s.bsdf.is_black() {
             true => StopReason::Absorbed,
             false => StopReason::OpaqueNoChildren,
         };
-        let vertex = Vertex { own, ..Vertex::new(Place::Surface(s, crossing), p, left, ray) };
+        let vertex = Vertex { own, below: walked, ..Vertex::new(Place::Surface(s, crossing), p, left, ray) };
         self.go_on(vertex, onward.ok_or(end), (there, emission), (flight, id))
     }
 
@@ -205,21 +234,32 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
                 return Step::end(radiance);
             }
         };
-        let [pdf, back] = vertex.go_on(&onward);
-        *flight = Flight::Direction(pdf);
-        if let Some(before) = self.vertices.last_mut() {
-            before.other = before.by_area(back, vertex.p);
+        let share = vertex.path.throughput;
+        if !vertex.below.is_glance {
+            let [pdf, back] = vertex.go_on(&onward);
+            *flight = Flight::Direction(pdf);
+            if onward.child.below.is_some() {
+                let cos = vertex.cos(onward.child.ray.d);
+                *flight = self.walk.below(*flight, &onward.child.media, (cos, Asked::Nothing));
+            }
+            if let Some(before) = self.vertices.last_mut() {
+                before.other = vertex.back_to(before, back);
+            }
+            self.vertices.push(vertex);
         }
+        self.follow(onward, radiance, share, id)
+    }
+
+    /// Follows the next ray of the walk, of which the one before has this share of the pixel, if chance lets it.
+    fn follow(&mut self, onward: Onward, radiance: Spectrum, share: Spectrum, id: P::Id) -> Step {
         let Onward { mut child, kind, told, .. } = onward;
-        let is_sure = child.depth <= self.own.roulette_depth;
+        let is_sure = child.depth <= self.own.roulette_depth && child.below.is_none();
         let kept = if is_sure { 1.0 } else { kept(child.throughput.max() / child.compression) };
         let u = if kept < 1.0 { child.sampler.d1(Dim::Roulette) } else { 0.0 };
         let lives = u < kept;
         if let Some(told) = told {
             self.walk.probe.chosen(&Choice { kept: if lives { kept } else { 1.0 }, ..told });
         }
-        let share = vertex.path.throughput;
-        self.vertices.push(vertex);
         if !lives {
             if P::ACTIVE {
                 let refused = self.walk.probe.ray(id, &child, kind);
@@ -234,8 +274,9 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         Step { radiance, next: Some((child, kind)) }
     }
 
-    /// What the surface that was met sends along the ray, by the share of having met it, which was done with density `own`.
-    fn met(&mut self, s: &Shading, own: f32, id: P::Id) -> Spectrum {
+    /// What the surface that was met sends along the ray, by the share of having met it, which was done with density `own`, by
+    /// a walk below a surface or not.
+    fn met(&mut self, s: &Shading, own: (f32, bool), id: P::Id) -> Spectrum {
         let t = self.vertices.len() + 2;
         let weight = self.own.ways.weight(0, t, || 1.0);
         let Some(lamp) = s.lamp.filter(|lamp| !lamp.radiance.is_black()) else {
@@ -275,7 +316,12 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
             let radiance = cx.scene.lights[light as usize].escaped(cx.basis, ray.ray.d);
             if !radiance.is_black() {
                 let end = End { light: light as usize, source: Source::Far, p: ray.from };
-                sky += radiance * self.own.ways.weight(0, t, || self.share_of_met(&end, ray.ray.d, own));
+                let share = || match ray.below {
+                    // No particle from there comes into a body without its surface.
+                    Some(_) => 1.0,
+                    None => self.share_of_met(&end, ray.ray.d, (own, false)),
+                };
+                sky += radiance * self.own.ways.weight(0, t, share);
             }
         }
         let sky = self.walk.arriving(&ray.media, ray.from, &ray.ray, f32::INFINITY) * passed * sky + sent;

@@ -37,7 +37,7 @@ impl<P: Probe> EyeWalk<'_, P> {
             let end = End::glow(walk.cx, number as usize, ray.ray.at(t));
             let share = || {
                 let own = end.by_volume(self.density(flight, ray, (end.p, 1.0)));
-                self.share_of_met(&end, ray.ray.d, own)
+                self.share_of_met(&end, ray.ray.d, (own, false))
             };
             sum += added * ways.weight(0, seen, share);
         });

@@ -4,7 +4,7 @@ use durer_core::{math::Vector3, spectrum::Spectrum};
 use super::{
     super::vertices::{End, Particle, Vertex, towards},
     eye::EyeWalk,
-    weight::Densities,
+    weight::{Densities, Edges},
 };
 use crate::{
     Contribution, Splat,
@@ -18,7 +18,8 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
             return;
         };
         for index in 0..particle.vertices.len() {
-            if self.own.ways.weight(index + 2, 1, || 1.0) == 0.0 {
+            let s = particle.vertices[index].order + 2;
+            if self.own.ways.weight(s, 1, || 1.0) == 0.0 {
                 continue;
             }
             let Some(sighting) = self.walk.sighting(particle, index, id) else { continue };
@@ -28,9 +29,9 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
                 let mut densities =
                     self.light_part(particle, index, (sighting.d, sighting.seen.importance * cos));
                 densities.is_seen = true;
-                densities.share(index + 2)
+                densities.share(s)
             };
-            let weight = self.own.ways.weight(index + 2, 1, share);
+            let weight = self.own.ways.weight(s, 1, share);
             out.splats.push(Splat { radiance: sighting.splat.radiance * weight, ..sighting.splat });
         }
     }
@@ -46,7 +47,7 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         let t = self.vertices.len() + 2;
         let mut sum = radiance;
         for index in 0..particle.vertices.len() {
-            let s = index + 2;
+            let s = particle.vertices[index].order + 2;
             // Bounces: all vertices but the ends.
             if s + t - 2 > self.own.rules.max_depth as usize {
                 break;
@@ -77,7 +78,7 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         if f.is_black() {
             return Spectrum::BLACK;
         }
-        let is_first = index == 0 && particle.end.is_sharp();
+        let is_first = other.order == 0 && particle.end.is_sharp();
         let mut sent = other.sent(basis, -d, is_first);
         if vertex.path.is_collapsed && other.path.is_collapsed {
             // Both parts count their one wavelength for all four: once is enough.
@@ -88,7 +89,8 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
             return Spectrum::BLACK;
         }
         let t = self.vertices.len() + 2;
-        let share = self.own.ways.weight(index + 2, t, || self.share_of_edge(vertex, (particle, index), d));
+        let share =
+            self.own.ways.weight(other.order + 2, t, || self.share_of_edge(vertex, (particle, index), d));
         if P::RECORDS {
             self.walk.probe.chosen(&Choice {
                 by: ChosenBy::Joined,
@@ -107,39 +109,52 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
     /// The densities of a particle's vertices up to one, and of the light, where the path goes on in direction `d`; `met` is
     /// the density with which a walk from there comes to that vertex.
     fn light_part(&self, particle: &Particle, index: usize, (d, met): (Vector3, f32)) -> Densities {
-        let vertices = &particle.vertices[..=index];
-        let last = &vertices[index];
+        let last = &particle.vertices[index];
         let back = last.pdf(d, last.wo());
-        let first = &vertices[0];
+        let mut way = particle.way(index).chain([last]);
+        let first = way.next().unwrap_or(last);
         let p = last.p;
-        let (to_light, from_first) = (first.wo(), if index == 0 { d } else { -vertices[1].wo() });
+        let (to_light, from_first) = match way.next() {
+            None => (first.wo(), d),
+            // It comes from the other side.
+            Some(second) if second.below.is_walked => (first.wo(), -first.wo()),
+            Some(second) => (first.wo(), -second.wo()),
+        };
         let asked = particle.end.asked(self.walk.cx, (first, from_first), to_light, self.own.light_sampler);
-        let end = match index {
+        let end = match last.order {
+            0 if last.below.is_walked => last.back_below(back),
             0 => particle.end.by_area(back, p),
             _ => particle.other,
         };
-        let room = index + 2 + self.vertices.len();
+        let room = last.order + 2 + self.vertices.len();
         let mut densities = Densities::of_light([particle.own, end], asked, particle.end.is_met(), room);
-        for (i, vertex) in vertices.iter().enumerate() {
-            let other = match index - i {
-                0 => met,
-                1 => vertex.by_area(back, p),
+        for vertex in particle.way(index) {
+            let other = match last.order - vertex.order {
+                1 => last.back_to(vertex, back),
                 _ => vertex.other,
             };
-            densities.add(vertex.own, other, i < index && vertex.is_sharp);
+            densities.add(vertex.own, other, Edges::of(vertex.is_sharp, vertex.below.is_walked));
         }
+        densities.add(last.own, met, Edges::of(false, last.below.is_walked));
         densities
     }
 
     /// Adds the vertices of the eye's walk so far, of which the last is met from the light with density `met`, by a walk
-    /// that comes from the vertex that is joined to it.
-    fn add_eye_part(&self, densities: &mut Densities, met: Option<f32>) {
+    /// that comes from the vertex after it, which may be one below a surface.
+    fn add_eye_part(&self, densities: &mut Densities, met: Option<f32>, mut is_walked: bool) {
         let count = self.vertices.len();
         for (i, vertex) in self.vertices.iter().enumerate().rev() {
             let other = if i + 1 == count { met.unwrap_or(vertex.other) } else { vertex.other };
-            densities.add(other, vertex.own, vertex.is_sharp);
+            densities.add(other, vertex.own, Edges::of(vertex.is_sharp, is_walked));
+            is_walked = vertex.below.is_walked;
         }
         densities.is_seen = self.walk.cx.scene.view.is_connectible();
+    }
+
+    /// The same before a vertex to which a walk from the light comes from direction `d`.
+    fn add_before(&self, densities: &mut Densities, (vertex, d): (&Vertex<'_>, Vector3)) {
+        let back = |before: &Vertex<'_>| vertex.back_to(before, vertex.pdf(d, vertex.wo()));
+        self.add_eye_part(densities, self.vertices.last().map(back), vertex.below.is_walked);
     }
 
     fn share_of_edge(
@@ -153,10 +168,9 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         let met = other.by_area(vertex.pdf(vertex.wo(), d), here);
         let mut densities = self.light_part(particle, index, (-d, met));
         let reached = vertex.by_area(other.pdf(other.wo(), -d), there);
-        densities.add(reached, vertex.own, false);
-        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.wo()), here));
-        self.add_eye_part(&mut densities, before);
-        densities.share(index + 2)
+        densities.add(reached, vertex.own, Edges::Both);
+        self.add_before(&mut densities, (vertex, d));
+        densities.share(other.order + 2)
     }
 
     /// The share of asking for a light, of which direction `d` leads there; with the chance of the light and, of lights with
@@ -174,23 +188,25 @@ impl<'a, P: Probe> EyeWalk<'a, P> {
         let [begun, reached] = end.begun(self.walk.cx, vertex, d);
         let room = 1 + self.vertices.len();
         let mut densities = Densities::of_light([begun, met], asked, end.is_met(), room);
-        densities.add(reached, vertex.own, false);
-        let before = self.vertices.last().map(|before| before.by_area(vertex.pdf(d, vertex.wo()), here));
-        self.add_eye_part(&mut densities, before);
+        densities.add(reached, vertex.own, Edges::Both);
+        self.add_before(&mut densities, (vertex, d));
         densities.share(1)
     }
 
     /// The share of having met a light, in direction `d`, which the walk comes to with density `own`.
-    pub(super) fn share_of_met(&self, end: &End, d: Vector3, own: f32) -> f32 {
+    pub(super) fn share_of_met(&self, end: &End, d: Vector3, (own, is_walked): (f32, bool)) -> f32 {
         let Some(vertex) = self.vertices.last() else { return 1.0 };
-        let [begun, reached] = end.begun(self.walk.cx, vertex, d);
-        let asked = match vertex.is_sharp {
+        let [begun, reached] = match is_walked {
+            true => end.begun_below(self.walk.cx, -d, vertex.time()),
+            false => end.begun(self.walk.cx, vertex, d),
+        };
+        let asked = match vertex.is_sharp || is_walked {
             true => 1.0,
             false => end.asked(self.walk.cx, (vertex, vertex.wo()), d, self.own.light_sampler),
         };
         let mut densities = Densities::of_light([begun, own], asked, true, self.vertices.len());
         // The vertex itself is reached from the light; those before it by its own scattering.
-        self.add_eye_part(&mut densities, Some(reached));
+        self.add_eye_part(&mut densities, Some(reached), is_walked);
         densities.share(0)
     }
 }

@@ -16,6 +16,7 @@ use durer_scene::{Args, Kind, ParamDefault, ParamSpec, ParamType, Schema};
 
 use super::{
     Integrator, LIGHT_SAMPLER, PATH_DEPTH, Particles, ROULETTE_DEPTH, Start, Transport,
+    below::Descent,
     vertices::Stamina,
     walk::{Rules, Walk},
 };
@@ -149,6 +150,9 @@ impl Transport for Bidirectional {
     fn depth_limit(&self) -> Option<u32> {
         Some(self.rules.max_depth)
     }
+    fn walks(&self) -> bool {
+        true
+    }
     fn particles(&self) -> Particles {
         Particles::Some
     }
@@ -162,7 +166,7 @@ impl Transport for Bidirectional {
     ) {
         let (Start::Eye(ray) | Start::Again(TreeNode { path: ray, .. })) = start;
         let ray = PathRay { media: cx.scene.start, ..*ray };
-        let mut walk = Walk::in_media(&self.rules, cx, probe);
+        let mut walk = Walk::in_media(&self.rules, cx, probe, Descent::Adjoint);
         let stamina = Stamina { vertices: self.rules.max_depth, sure: self.roulette_depth };
         let id = walk.probe.ray(parent, &ray, RayKind::Eye);
         let particle = walk.particle(&ray, stamina, id);

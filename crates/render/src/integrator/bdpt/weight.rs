@@ -10,9 +10,9 @@
 /// What is known of all ways to sample a path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Densities {
-    /// Of each vertex but the camera: by a walk from the light, and by one from the eye; and whether it is scattered there in
-    /// a sharp direction, so that no edge can be joined. The first is the light.
-    walks: Vec<([f32; 2], bool)>,
+    /// Of each vertex but the camera: by a walk from the light, and by one from the eye; and which edges there can be joined.
+    /// The first is the light.
+    walks: Vec<([f32; 2], Edges)>,
     /// Of the light's point where it is asked for by the next vertex.
     pub(super) asked: f32,
     /// Rays can meet the light.
@@ -21,25 +21,48 @@ pub(super) struct Densities {
     pub(super) is_seen: bool,
 }
 
+/// Which edges of a vertex can be joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Edges {
+    /// Both.
+    Both,
+    /// Not the one towards the light: it is a walk below a surface.
+    Onward,
+    /// None: light is scattered in a sharp direction.
+    Neither,
+}
+
+impl Edges {
+    /// Those of a vertex where light is scattered in a sharp direction or not, and to which a walk below a surface leads from
+    /// the next one towards the light or not.
+    pub(super) fn of(is_sharp: bool, is_walked: bool) -> Self {
+        match (is_sharp, is_walked) {
+            (true, _) => Self::Neither,
+            (false, true) => Self::Onward,
+            (false, false) => Self::Both,
+        }
+    }
+}
+
 impl Densities {
     /// Those of a light, which is asked for with density `asked`, with room for so many vertices.
     pub(super) fn of_light(light: [f32; 2], asked: f32, is_met: bool, vertices: usize) -> Self {
         // PERF: asks for memory once (bench render).
         let mut walks = Vec::with_capacity(vertices + 1);
-        walks.push((light, false));
+        walks.push((light, Edges::Both));
         Self { walks, asked, is_met, is_seen: false }
     }
-    /// Adds the next vertex, towards the camera: densities from the light and from the eye, and whether it is sharp.
-    pub(super) fn add(&mut self, from_light: f32, from_eye: f32, is_sharp: bool) {
-        self.walks.push(([from_light, from_eye], is_sharp));
+    /// Adds the next vertex, towards the camera: densities from the light and from the eye, and which edges can be joined.
+    pub(super) fn add(&mut self, from_light: f32, from_eye: f32, edges: Edges) {
+        self.walks.push(([from_light, from_eye], edges));
     }
     /// Whether a path can be found with `s` vertices from the light.
     fn is_possible(&self, s: usize) -> bool {
         let n = self.walks.len();
         match s {
             0 => self.is_met,
-            _ if s == n => self.is_seen && !self.walks[s - 1].1 && n > 1,
-            _ => !self.walks[s - 1].1 && !self.walks[s].1,
+            _ if s == n => self.is_seen && self.walks[s - 1].1 != Edges::Neither && n > 1,
+            _ => self.walks[s - 1].1 != Edges::Neither && self.walks[s].1 == Edges::Both,
         }
     }
 
@@ -115,7 +138,14 @@ mod tests {
             let own = |i: usize, k: u32| number(case as u32 * 64 + i as u32 * 4 + k);
             let d = Densities {
                 walks: (0..n)
-                    .map(|i| ([own(i, 0), own(i, 1)], i > 0 && case % 3 == 0 && own(i, 2) < 3.0))
+                    .map(|i| {
+                        let edges = match own(i, 2) {
+                            x if i > 0 && case % 3 == 0 && x < 3.0 => Edges::Neither,
+                            x if i > 0 && case % 2 == 0 && x > 8.0 => Edges::Onward,
+                            _ => Edges::Both,
+                        };
+                        ([own(i, 0), own(i, 1)], edges)
+                    })
                     .collect(),
                 asked: own(40, 3),
                 is_met: case % 5 != 0,
@@ -136,7 +166,7 @@ mod tests {
     #[test]
     fn lights_that_send_no_particles_are_asked_or_met() {
         let d = Densities {
-            walks: vec![([0.0, 2.0], false), ([0.0, 1.0], false), ([3.0, 1.0], false)],
+            walks: [[0.0, 2.0], [0.0, 1.0], [3.0, 1.0]].map(|walks| (walks, Edges::Both)).to_vec(),
             asked: 6.0,
             is_met: true,
             is_seen: true,

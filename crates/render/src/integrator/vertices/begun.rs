@@ -66,7 +66,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             random: Some(RandomNumbers::two(Dim::Scatter, u[1].to_array())),
             ..Choice::sharp()
         };
-        let particle = Particle { end, own: own * chance, other: 0.0, vertices: stamina.room() };
+        let particle = Particle { end, own: own * chance, other: 0.0, vertices: stamina.room(), length: 0 };
         Some(Begun { particle, ray, flight, told })
     }
 

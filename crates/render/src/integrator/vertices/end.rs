@@ -84,6 +84,20 @@ impl End {
         }
     }
 
+    /// The same of a particle that begins in a body that light walks in, along `d`: the second is that of [`Flight::Below`].
+    pub(in super::super) fn begun_below(&self, cx: &SampleCx<'_>, d: Vector3, time: f32) -> [f32; 2] {
+        let Source::Surface(hit) = self.source else { return [0.0; 2] };
+        let chance = cx.scene.emitter_chance(true, Emitter::Light(self.light));
+        let asked = LightCx { basis: cx.basis, time };
+        let leaving = Leaving { p: hit.p, hit: Some(hit), d };
+        let [place, direction] = cx.scene.lights[self.light].emission_pdf(&asked, &cx.scene.extent, &leaving);
+        [chance * place, direction / self.cos(d)]
+    }
+    /// The cosine by which it sends out light along `d`.
+    pub(super) fn cos(&self, d: Vector3) -> f32 {
+        self.hit().map_or(1.0, |hit| hit.n.dot(d).abs())
+    }
+
     /// Density with which the light is asked at vertex `first`, which a walk from direction `wo` came to, in the same
     /// measure as the first of [`End::begun`]. `d` leads there.
     pub(in super::super) fn asked(

@@ -10,7 +10,11 @@
 //! of all shares: it counts as 1, or as the cosine per solid angle. The chances of passing surfaces that are not there count
 //! as 1 too. Particles are scattered by the adjoint of what eye rays are: `f*(wo, wi) = f(wi, wo)`, which is not symmetric
 //! through interfaces, `|wo n_s| / |wo n_g|` for shading normals (section 5.3.2).
+//!
+//! A walk below a surface is an edge between the points where it gets in and out, to which nothing can be joined
+//! (`below.rs`).
 mod begun;
+mod below;
 mod end;
 mod onward;
 mod particle;
@@ -28,6 +32,7 @@ use durer_model::{
 };
 
 use super::{
+    below::Descent,
     shading::Shading,
     walk::{Walk, span},
 };
@@ -38,6 +43,7 @@ use crate::{
     probe::{Probe, RayKind, StopReason},
 };
 
+pub(super) use below::Walked;
 pub(super) use end::End;
 pub(super) use onward::{Onward, chosen};
 pub(super) use particle::{Particle, Stamina};
@@ -59,6 +65,42 @@ pub(super) enum Flight {
     Place(f32),
     /// The camera.
     Camera,
+    /// A walk below a surface: the density with which it came in, by the cosine there, and what is asked of it.
+    Below(f32, Asked),
+}
+
+impl Flight {
+    /// What no particle does: so likely that all other ways count for nothing.
+    pub(super) const OF_THE_EYE: Self = Self::Below(f32::MAX, Asked::Nothing);
+
+    /// That of a walk below a surface which began by this flight where the cosine is `cos`, and of which that is asked.
+    fn below(self, (cos, asked): (f32, Asked)) -> Self {
+        match self {
+            Self::Direction(pdf) => Self::Below(pdf / cos, asked),
+            Self::Place(pdf) => Self::Below(pdf, asked),
+            Self::Camera => Self::Below(1.0, asked),
+            Self::Below(..) => self,
+        }
+    }
+    /// What is asked of it.
+    fn asked(self) -> Asked {
+        if let Self::Below(_, asked) = self { asked } else { Asked::Nothing }
+    }
+    /// The same of which that is asked.
+    fn asking(self, asked: Asked) -> Self {
+        if let Self::Below(pdf, _) = self { Self::Below(pdf, asked) } else { self }
+    }
+}
+
+/// What is asked of a particle's walk below a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// Nothing.
+    Nothing,
+    /// To meet something there before it leaves.
+    ToScatter,
+    /// To meet nothing.
+    ToPass,
 }
 
 /// Cosine by distance², of a surface of unit normal `n` at `to` seen from `from`.
@@ -95,7 +137,11 @@ impl<'a, P: Probe> Walk<'a, P> {
         (hit, passed): (&Hit, Spectrum),
         announce: impl FnOnce(&mut Self, &Shading),
     ) -> Option<(Shading<'a>, Crossing, Spectrum)> {
-        let mut s = Shading::at(self.cx, &ray.ray, hit, Some(Onlooker::of(ray, Habit::AsPbrt)));
+        let onlooker = Onlooker::of(ray, Habit::AsPbrt);
+        let mut s = match self.descent {
+            Descent::Flat => Shading::at(self.cx, &ray.ray, hit, Some(onlooker)),
+            Descent::Mirrored | Descent::Adjoint => Shading::open(self.cx, &ray.ray, hit, onlooker),
+        };
         announce(self, &s);
         let crossing = self.cross(&ray.media, &mut s, hit.t);
         let left = self.arriving(&ray.media, ray.from, &ray.ray, hit.t) * passed;
@@ -131,6 +177,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             Flight::Direction(pdf) => pdf * cos / d.length_squared(),
             Flight::Place(pdf) => pdf * cos,
             Flight::Camera => self.cx.scene.view.importance(ray.d, d.length(), ray.time) * cos,
+            Flight::Below(pdf, _) => pdf,
         }
     }
 

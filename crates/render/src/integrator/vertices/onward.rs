@@ -1,6 +1,6 @@
 //! How a walk goes on from where it scatters.
 use durer_core::{
-    math::{Ray, Vector3},
+    math::{Point3, Ray, Vector3},
     sampling::{Dim, Sampler},
     spectrum::Spectrum,
 };
@@ -37,11 +37,11 @@ pub(in super::super) struct Onward {
 
 impl Onward {
     /// In a direction that a surface scatters in, with the share that is left of the ray before any index of refraction or
-    /// normal counts.
+    /// normal counts; whether it keeps to its side of the true surface if it is not sharp, too.
     pub(in super::super) fn of<P: Probe>(
         parent: &PathRay,
         (s, crossing): (&Shading, &Crossing),
-        (scattered, weight): (&Scattered, Spectrum),
+        (scattered, weight, keeps_side): (&Scattered, Spectrum, bool),
         sampler: &Sampler,
     ) -> Self {
         let d = s.frame.to_world(scattered.wi);
@@ -50,7 +50,7 @@ impl Onward {
             Some(_) => RayKind::drawn(scattered.kind),
         };
         let told = P::RECORDS.then(|| chosen(s, scattered, (sampler, s.pdf(d, s.wo))));
-        let child = scattered_on(parent, (s, crossing), scattered, weight);
+        let child = scattered_on(parent, (s, crossing), scattered, (weight, keeps_side));
         Self { child, kind, d, pdf: scattered.pdf, told }
     }
     /// The same of a particle of light, which `phase` scattered as `parent` came.
@@ -87,10 +87,15 @@ impl<'a, P: Probe> Walk<'a, P> {
         weight: Spectrum,
     ) -> (Vertex<'a>, Onward) {
         let p = parent.ray.at(t);
+        let onward = self.onward(parent, (phase, p), weight);
+        (Vertex::new(Place::Particle(phase), p, weight, *parent), onward)
+    }
+
+    /// The ray that a particle at `p` sends on, where `weight` is left and scattered.
+    pub(super) fn onward(&self, parent: &PathRay, (phase, p): (&Phase, Point3), weight: Spectrum) -> Onward {
         let child = self.deflect(parent, (phase, p), weight, SCATTER_BRANCH);
         let told = P::RECORDS.then(|| deflection((&child.sampler, phase.name()), &child, 1.0));
-        let onward = Onward { d: child.ray.d, pdf: child.density, child, kind: RayKind::Scattered, told };
-        (Vertex::new(Place::Particle(phase), p, weight, *parent), onward)
+        Onward { d: child.ray.d, pdf: child.density, child, kind: RayKind::Scattered, told }
     }
 }
 
@@ -99,10 +104,10 @@ fn scattered_on(
     parent: &PathRay,
     (s, crossing): (&Shading, &Crossing),
     scattered: &Scattered,
-    weight: Spectrum,
+    (weight, keeps_side): (Spectrum, bool),
 ) -> PathRay {
     let d = s.frame.to_world(scattered.wi);
-    let d = if scattered.pdf.is_none() { s.keep_side(d, scattered.kind) } else { d };
+    let d = if scattered.pdf.is_none() || keeps_side { s.keep_side(d, scattered.kind) } else { d };
     let ray: Ray = s.surface.spawn(d.normalize(), parent.ray.time);
     PathRay {
         media: crossing.media(scattered.kind),

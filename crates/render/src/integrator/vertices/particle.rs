@@ -1,25 +1,29 @@
 //! The way of a particle: from a light through the scene, and from where it scatters to the camera.
+use durer_accel::Hit;
 use durer_core::{
     math::{Point3, Vector3},
     sampling::Dim,
     spectrum::Spectrum,
 };
 use durer_model::{
-    bsdf::Scattered,
+    bsdf::{BranchKind, Scattered},
     medium::{self, End},
 };
 
 use super::{
     super::{
+        below::{Descent, descend},
         shading::Shading,
         walk::{Parts, Walk},
     },
-    Flight, LENS_BRANCH, Onward, Place, SCATTER_BRANCH, Vertex,
+    Asked, Flight, LENS_BRANCH, Onward, Place, SCATTER_BRANCH, Vertex,
     begun::Begun,
+    below::tilt,
     end, kept, straight_on, towards,
 };
 use crate::{
-    PathRay, Sighted, Splat,
+    Below, PathRay, Sighted, Splat,
+    media::Crossing,
     probe::{Choice, ChosenBy, Probe, RayKind, StopReason},
 };
 
@@ -55,6 +59,8 @@ pub(in super::super) struct Particle<'a> {
     pub(in super::super) other: f32,
     /// Where it scattered.
     pub(in super::super) vertices: Vec<Vertex<'a>>,
+    /// How many of them are on its way: all but those where a walk below a surface went on below.
+    pub(in super::super) length: usize,
 }
 
 /// What a ray of a particle led to.
@@ -106,7 +112,7 @@ impl<'a, P: Probe> Walk<'a, P> {
         mut parent: P::Id,
     ) {
         let start = ray.throughput.max();
-        while (particle.vertices.len() as u32) < stamina.vertices && ray.passed <= MOST_PASSED {
+        while (particle.length as u32) < stamina.vertices && ray.passed <= MOST_PASSED {
             self.rays += 1;
             let id = self.announce(&ray, parent);
             parent = id;
@@ -124,7 +130,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             }
             let sampler = ray.sampler.fork(SCATTER_BRANCH);
             ray = child;
-            if particle.vertices.len() as u32 > stamina.sure {
+            if particle.length as u32 > stamina.sure || ray.below.is_some() {
                 let kept = kept(ray.throughput.max() / start);
                 if kept < 1.0 && sampler.d1(Dim::Roulette) >= kept {
                     self.probe.stop(id, StopReason::Roulette, Spectrum::BLACK);
@@ -146,7 +152,26 @@ impl<'a, P: Probe> Walk<'a, P> {
         let cx = self.cx;
         let hit = cx.scene.closest_in_the_way(cx, &ray.ray, self.heeds_media, (self.probe, id));
         let mut passed = Spectrum::ONE;
-        if let Some((floated, phase)) = self.float(ray, hit.map_or(f32::INFINITY, |hit| hit.t)) {
+        if !self.begin_below(ray, hit.as_ref(), (particle, flight)) {
+            self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+            return Met::Ended;
+        }
+        if let Some(below) = ray.below {
+            if below.rays > Below::MOST_RAYS {
+                self.probe.stop(id, StopReason::DepthLimit, Spectrum::BLACK);
+                return Met::Ended;
+            }
+            let flown = self.fly_below(ray, (&below, hit.as_ref()), id);
+            if let End::Scattered(t) = flown.end {
+                if flight.asked() == Asked::ToPass {
+                    self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+                    return Met::Ended;
+                }
+                *flight = flight.asking(Asked::Nothing);
+                return Met::Scattered(Some(self.walk_on(ray, &below, (t, flown.weight))));
+            }
+            passed = flown.weight;
+        } else if let Some((floated, phase)) = self.float(ray, hit.map_or(f32::INFINITY, |hit| hit.t)) {
             if P::RECORDS {
                 // What the medium sends out is seen from the eye.
                 self.report_floating(ray, &medium::Flight { sent: Spectrum::BLACK, ..floated }, id);
@@ -161,7 +186,7 @@ impl<'a, P: Probe> Walk<'a, P> {
                     return Met::Ended;
                 }
                 let vertex = Vertex { arriving: ray.throughput * left, own, ..vertex };
-                return particle.add(vertex, Some(onward.skewed(ray, phase)), flight);
+                return particle.add(vertex, (Some(onward.skewed(ray, phase)), Asked::Nothing), flight);
             }
             passed = floated.weight;
         }
@@ -182,23 +207,88 @@ impl<'a, P: Probe> Walk<'a, P> {
             self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
             return Met::Ended;
         }
+        self.particle_turns((ray, s, crossing), left, (particle, flight), id)
+    }
+
+    /// What becomes of a particle at a surface, before which `left` of it is left.
+    fn particle_turns(
+        &mut self,
+        (ray, mut s, crossing): (&mut PathRay, Shading<'a>, Crossing),
+        left: Spectrum,
+        (particle, flight): (&mut Particle<'a>, &mut Flight),
+        id: P::Id,
+    ) -> Met {
+        let mut walked = self.walked_at(ray, &crossing);
+        walked.is_even = self.descent == Descent::Mirrored && self.leave(ray, &mut s);
         let sampler = ray.sampler.fork(SCATTER_BRANCH);
-        let scattered = s.scattered(&sampler);
-        if let Some(through) = scattered.filter(|scattered| scattered.passes) {
-            *ray = straight_on(ray, (&s, &crossing), left * through.weight);
+        let before = flight.asked();
+        let parted = self.parted((&s, &crossing.behind), before);
+        let real = parted.as_ref().map_or(1.0, |(_, chance)| 1.0 - chance);
+        let there = 1.0 - s.bsdf.passing_chance(s.wo_local) * real;
+        let scattered = self.particle_scattered((&s, &mut walked), parted, &sampler);
+        if let Some((through, ..)) = scattered.filter(|(scattered, ..)| scattered.passes) {
+            let mut on = straight_on(ray, (&s, &crossing), left * through.weight);
+            if ray.below.is_some() || self.walked_in(&crossing.behind).is_some() {
+                if self.descent == Descent::Adjoint {
+                    // Light is left to the eye that gets in or out through holes.
+                    self.probe.stop(id, StopReason::Absorbed, Spectrum::BLACK);
+                    return Met::Ended;
+                }
+                descend(self.cx, ray, (&s, &crossing), BranchKind::Transmission, &mut on);
+            }
+            *ray = on;
             return Met::Passed;
         }
-        let there = 1.0 - s.bsdf.passing_chance(s.wo_local);
         let arriving = ray.throughput * left / there;
-        let onward = scattered.map(|scattered| {
-            let weight = left * adjoint(&s, &scattered);
-            Onward::of::<P>(ray, (&s, &crossing), (&scattered, weight), &sampler)
+        let is_closed = self.walked_in(&crossing.behind) != self.walked_back_in(&crossing.behind);
+        let scattered =
+            scattered.filter(|(scattered, ..)| !is_closed || scattered.kind == BranchKind::Reflection);
+        let asked = scattered.map_or(Asked::Nothing, |(.., asked)| asked);
+        let keeps_side = self.is_walked(&s);
+        let onward = scattered.map(|(scattered, weight, _)| {
+            let weight = left * weight;
+            let mut onward =
+                Onward::of::<P>(ray, (&s, &crossing), (&scattered, weight, keeps_side), &sampler);
+            if self.descent != Descent::Flat {
+                descend(self.cx, ray, (&s, &crossing), scattered.kind, &mut onward.child);
+            }
+            onward
         });
+        let goes_on_below = ray.below.is_some()
+            && scattered.is_some_and(|(scattered, ..)| scattered.kind == BranchKind::Reflection);
+        if goes_on_below && !s.surface.is_outside(s.wo) && before == Asked::Nothing {
+            *flight = flight.asking(asked);
+        }
+        if before == Asked::ToScatter {
+            // It is not to leave yet.
+            return if goes_on_below { Met::Scattered(onward) } else { Met::Ended };
+        }
         let p = s.surface.p;
         let to = (p, s.surface.n_g.dot(s.wo).abs());
         let own = self.density(*flight, (particle.last(), &ray.ray), to);
+        walked.is_glance = goes_on_below;
         let vertex = Vertex::new(Place::Surface(s, crossing), p, arriving, *ray);
-        particle.add(Vertex { own, ..vertex }, onward, flight)
+        particle.add(Vertex { own, below: walked, ..vertex }, (onward, asked), flight)
+    }
+
+    /// Makes the first ray of a particle one of a walk, if it begins in a body that light walks in, as that is where the ray
+    /// would meet its surface. False if the particle ends.
+    fn begin_below(
+        &self,
+        ray: &mut PathRay,
+        hit: Option<&Hit>,
+        (particle, flight): (&Particle<'_>, &mut Flight),
+    ) -> bool {
+        if ray.below.is_some() || self.walked_in(&ray.media).is_none() {
+            return true;
+        }
+        let is_first = particle.length == 0 && ray.passed == 0;
+        let (Some(material), Some(hit), true) = (self.walked_back_in(&ray.media), hit, is_first) else {
+            return false;
+        };
+        ray.below = Below::at(self.cx, material, &self.cx.scene.surface(&ray.ray, hit).1);
+        *flight = self.below(*flight, &ray.media, (particle.end.cos(ray.ray.d), Asked::Nothing));
+        true
     }
 
     /// Tells of a part of the way, which brings nothing to the pixel by itself.
@@ -232,7 +322,7 @@ impl<'a, P: Probe> Walk<'a, P> {
             return None;
         }
         let (d, _) = towards(p, seen.from);
-        let is_first = index == 0 && particle.end.is_sharp();
+        let is_first = vertex.order == 0 && particle.end.is_sharp();
         let sent = vertex.sent(&self.cx.basis, d, is_first);
         let radiance = sent * (vertex.cos(d) * seen.importance);
         if radiance.is_black() {
@@ -247,18 +337,38 @@ impl<'a, P: Probe> Walk<'a, P> {
 }
 
 impl<'a> Particle<'a> {
-    /// Where it scattered last, or began.
+    /// Where it scattered last on its way, or began.
     fn last(&self) -> Point3 {
-        self.vertices.last().map_or(self.end.p, |vertex| vertex.p)
+        self.way(self.vertices.len()).next_back().map_or(self.end.p, |vertex| vertex.p)
     }
 
-    /// Adds a vertex, from which it goes `onward` by a new `flight`.
-    fn add(&mut self, mut vertex: Vertex<'a>, onward: Option<Onward>, flight: &mut Flight) -> Met {
+    /// The vertices on its way before the one of this index.
+    pub(in super::super) fn way(&self, index: usize) -> impl DoubleEndedIterator<Item = &Vertex<'a>> {
+        self.vertices[..index].iter().filter(|vertex| !vertex.below.is_glance)
+    }
+
+    /// Adds a vertex, from which it goes `onward` by a new `flight`, of which something is `asked`.
+    fn add(
+        &mut self,
+        mut vertex: Vertex<'a>,
+        (onward, asked): (Option<Onward>, Asked),
+        flight: &mut Flight,
+    ) -> Met {
+        vertex.order = self.length;
+        if vertex.below.is_glance {
+            self.vertices.extend(vertex.is_connectible().then_some(vertex));
+            return Met::Scattered(onward);
+        }
         if let Some(onward) = &onward {
             let [pdf, back] = vertex.go_on(onward);
             *flight = Flight::Direction(pdf);
+            if onward.child.below.is_some() {
+                // It goes on where particles do only.
+                *flight = flight.below((vertex.cos(onward.child.ray.d), asked));
+            }
             self.came_back(&vertex, back);
         }
+        self.length += 1;
         self.vertices.push(vertex);
         Met::Scattered(onward)
     }
@@ -266,15 +376,16 @@ impl<'a> Particle<'a> {
     /// Notes with which density a walk comes from a vertex to what is before it, by that of the direction.
     fn came_back(&mut self, from: &Vertex<'_>, pdf: f32) {
         let p = from.p;
-        match self.vertices.last_mut() {
-            Some(before) => before.other = before.by_area(pdf, p),
+        match self.vertices.iter_mut().rev().find(|vertex| !vertex.below.is_glance) {
+            Some(before) => before.other = from.back_to(before, pdf),
+            None if from.below.is_walked => self.other = from.back_below(pdf),
             None => self.other = self.end.by_area(pdf, p),
         }
     }
 }
 
 /// What a particle is multiplied with that goes on in a scattered direction.
-fn adjoint(s: &Shading, scattered: &Scattered) -> Spectrum {
+pub(super) fn adjoint(s: &Shading, scattered: &Scattered) -> Spectrum {
     let d = s.frame.to_world(scattered.wi);
     let [before, after] = [s.wo, d].map(|w| s.surface.n_g.dot(w).abs());
     match scattered.pdf {
@@ -282,9 +393,6 @@ fn adjoint(s: &Shading, scattered: &Scattered) -> Spectrum {
             let f = s.bsdf.eval_with_pdf(scattered.wi, s.wo_local).0;
             f * (s.wo_local.z.abs() / before * after / pdf)
         }
-        None => {
-            let tilt = s.wo_local.z.abs() * after / (before * scattered.wi.z.abs());
-            scattered.weight * (tilt / scattered.compression)
-        }
+        None => scattered.weight * (tilt(s, scattered) / scattered.compression),
     }
 }

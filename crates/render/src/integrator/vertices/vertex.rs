@@ -11,9 +11,12 @@ use durer_model::{
     medium::{Phase, Turn},
 };
 
-use super::super::{
-    shading::Shading,
-    walk::{Walk, between},
+use super::{
+    super::{
+        shading::Shading,
+        walk::{Walk, between},
+    },
+    below::Walked,
 };
 use crate::{Lit, MediumStack, PathRay, media::Crossing, probe::Probe};
 
@@ -34,6 +37,10 @@ pub(in super::super) struct Vertex<'a> {
     pub(in super::super) is_sharp: bool,
     /// The ray that came here.
     pub(in super::super) path: PathRay,
+    /// What walks below the surface have to do with it.
+    pub(in super::super) below: Walked,
+    /// Vertices before it on its way.
+    pub(in super::super) order: usize,
 }
 
 /// What scatters at a vertex.
@@ -48,7 +55,17 @@ pub(in super::super) enum Place<'a> {
 impl<'a> Vertex<'a> {
     /// One that `path` came to, with what arrives there.
     pub(in super::super) fn new(place: Place<'a>, p: Point3, arriving: Spectrum, path: PathRay) -> Self {
-        Self { place, p, arriving, own: 0.0, other: 0.0, is_sharp: false, path }
+        Self {
+            place,
+            p,
+            arriving,
+            own: 0.0,
+            other: 0.0,
+            is_sharp: false,
+            path,
+            below: Walked::default(),
+            order: 0,
+        }
     }
     /// Unit direction back along the ray that came here.
     pub(in super::super) fn wo(&self) -> Vector3 {
@@ -72,6 +89,7 @@ impl<'a> Vertex<'a> {
     /// Density with which a walk that comes from direction `from` goes on along `to`, 1/sr; both point away.
     pub(in super::super) fn pdf(&self, from: Vector3, to: Vector3) -> f32 {
         match &self.place {
+            Place::Surface(s, _) if self.is_crossed(s, from, to) => self.crossing_pdf(s, from, to),
             Place::Surface(s, _) => s.pdf(from, to),
             Place::Particle(phase) => phase.density(&Turn { p: self.p, from: -from, to }),
         }
@@ -89,6 +107,7 @@ impl<'a> Vertex<'a> {
     /// `pdf`, the cosines.
     pub(in super::super) fn there_and_back(&self, pdf: Option<f32>, d: Vector3) -> [f32; 2] {
         match pdf {
+            Some(_) if self.goes_below(d) => [self.pdf(self.wo(), d), self.pdf(d, self.wo())],
             Some(pdf) => [pdf, self.pdf(d, self.wo())],
             None => [d, self.wo()].map(|w| self.cos(w)),
         }
@@ -96,6 +115,8 @@ impl<'a> Vertex<'a> {
     /// Where lights are wanted that shine here, as one sees it who looks from direction `wo`.
     pub(in super::super) fn lit(&self, wo: Vector3) -> Lit {
         let n = match &self.place {
+            // As from below.
+            Place::Surface(s, _) if self.below.is_even && self.is_crossed(s, s.wo, wo) => None,
             Place::Surface(s, _) => (!s.bsdf.is_frosted()).then(|| s.surface.n_s.face_forward(wo)),
             Place::Particle(_) => None,
         };
@@ -112,6 +133,7 @@ impl<'a> Vertex<'a> {
     /// `is_first` if it comes straight from a light without extent.
     pub(in super::super) fn seen(&self, basis: &Basis, d: Vector3, is_first: bool) -> (Spectrum, f32) {
         match &self.place {
+            _ if self.is_below(d) => (Spectrum::BLACK, 0.0),
             Place::Surface(s, _) => {
                 let wi = s.frame.to_local(d);
                 (s.radiance((s.wo_local, wi), is_first), wi.z.abs())
@@ -123,10 +145,16 @@ impl<'a> Vertex<'a> {
     /// it comes straight from a light without extent.
     pub(in super::super) fn sent(&self, basis: &Basis, d: Vector3, is_first: bool) -> Spectrum {
         match &self.place {
+            _ if self.is_below(d) => Spectrum::BLACK,
             Place::Surface(s, _) => {
                 // What the shading normal makes of particles that come here.
                 let tilt = s.wo_local.z.abs() / s.surface.n_g.dot(s.wo).abs();
-                self.arriving * s.radiance((s.frame.to_local(d), s.wo_local), is_first) * tilt
+                let to = s.frame.to_local(d);
+                let f = match self.below.is_even && self.below.is_walked {
+                    true => s.bsdf.eval(s.wo_local, to),
+                    false => s.radiance((to, s.wo_local), is_first),
+                };
+                self.arriving * f * tilt
             }
             // Radiance goes the other way.
             Place::Particle(phase) => self.arriving * deflected(phase, basis, &self.turn(d).back()),

@@ -19,7 +19,7 @@ use durer_accel::Hit;
 use durer_core::spectrum::Spectrum;
 use durer_model::texture::Habit;
 
-use super::{Start, shading::Shading};
+use super::{Start, below::Descent, shading::Shading};
 use crate::{
     Below, Contribution, Imbalances, PathRay, SampleCx, Value,
     footprint::Onlooker,
@@ -45,17 +45,33 @@ pub(super) struct Walk<'a, P: Probe> {
     pub(super) imbalances: Imbalances,
     /// Whether what floats in places counts: surfaces that are not there are met where media begin and end.
     pub(super) heeds_media: bool,
+    /// What becomes of light below surfaces, for walks from both ends.
+    pub(super) descent: Descent,
 }
 
 impl<'a, P: Probe> Walk<'a, P> {
     /// The walk of one sample.
     pub(super) fn new(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
-        Self { rules, cx, probe, rays: 0, imbalances: Imbalances::default(), heeds_media: false }
+        Self {
+            rules,
+            cx,
+            probe,
+            rays: 0,
+            imbalances: Imbalances::default(),
+            heeds_media: false,
+            descent: Descent::Flat,
+        }
     }
 
-    /// The same, for which counts what floats in places, if that is so anywhere.
-    pub(super) fn in_media(rules: &'a Rules, cx: &'a SampleCx<'a>, probe: &'a mut P) -> Self {
-        Self { heeds_media: !cx.scene.volumes.is_empty(), ..Self::new(rules, cx, probe) }
+    /// The same, for which counts what floats in places and what is below surfaces, if that is anywhere.
+    pub(super) fn in_media(
+        rules: &'a Rules,
+        cx: &'a SampleCx<'a>,
+        probe: &'a mut P,
+        descent: Descent,
+    ) -> Self {
+        let descent = if cx.scene.media.are_walked() { descent } else { Descent::Flat };
+        Self { heeds_media: !cx.scene.volumes.is_empty(), descent, ..Self::new(rules, cx, probe) }
     }
 
     /// Walks the whole tree of an eye ray, which starts in the bodies that the camera is in, or follows a recorded ray.
