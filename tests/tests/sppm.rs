@@ -60,6 +60,20 @@ fn surfaces_change_nothing_of_it() {
     }
 }
 
+/// Such a ball is matte and narrowly clear from outside, and narrow only from inside, where light comes to be let out.
+#[test]
+fn what_comes_through_a_half_clear_ball_is_gathered_outside() {
+    let view = format!("LookAt 0 0 -4  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 20\n{BOX}");
+    let world = "LightSource \"infinite\"\nMaterial \"disney\" \"float spectrans\" 0.7 \"float roughness\" 0.3\n\
+        Shape \"sphere\" \"float radius\" 0.6";
+    let of = |integrator: &str| {
+        total(&means(&picture(&view, &format!("{integrator} \"integer maxdepth\" 2"), world, 128)))
+    };
+    let (path, found) =
+        (of("\"path\""), of("\"sppm\" \"float radius\" 0.05 \"integer photonsperiteration\" 4000"));
+    assert!((found / path - 1.0).abs() < 0.03, "{found}, expected {path}");
+}
+
 /// Strands keep no photons: eye rays go on among them as paths do.
 #[test]
 fn light_goes_from_strand_to_strand_as_on_paths() {

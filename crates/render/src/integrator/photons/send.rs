@@ -10,6 +10,7 @@ use super::{Gathering, Photon};
 use crate::{
     PathRay, SampleCx,
     integrator::{
+        shading::Shading,
         vertices::{Place, Stamina},
         walk::{Rules, Walk},
     },
@@ -46,7 +47,7 @@ pub fn send(
             // They see no media.
             let (Place::Surface(s, _), power) = (&vertex.place, vertex.arriving) else { continue };
             // Straight light is asked for from the eye.
-            if bounces > 0 && s.bsdf.is_broad() && power.is_finite() && !power.is_black() {
+            if bounces > 0 && is_gathered(cx, s) && power.is_finite() && !power.is_black() {
                 sent.photons.push(Photon {
                     p: s.surface.p,
                     wi: s.wo,
@@ -59,4 +60,12 @@ pub fn send(
         }
     }
     sent
+}
+
+/// Whether what arrives is gathered on one of the sides that it is scattered to: what is clear may be matte on its outside
+/// only.
+fn is_gathered(cx: &SampleCx<'_>, s: &Shading) -> bool {
+    let mut surface = s.surface;
+    let mut behind = || cx.scene.material(s.object).bsdf(&cx.shade(), &mut surface, -s.wo);
+    s.bsdf.is_broad() || s.bsdf.is_frosted() && behind().is_broad()
 }
