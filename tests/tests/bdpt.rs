@@ -160,6 +160,18 @@ fn pictures_do_not_depend_on_threads() {
     }
 }
 
+/// Where rounding lets a disk shine at itself, from beside, no density is known.
+#[test]
+fn a_lamp_in_its_own_plane_spoils_no_sample() {
+    let view = "LookAt 0 1.2 4  0 0.6 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n\
+        Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\n";
+    let world = "AttributeBegin\nTranslate 0 2 0\nAreaLightSource \"diffuse\"\nRotate -90 1 0 0\n\
+        Shape \"disk\" \"float radius\" 0.5\nAttributeEnd\nShape \"trianglemesh\" \
+        \"point3 P\" [-3 0 -2 3 0 -2 3 3 -2 -3 3 -2] \"integer indices\" [0 1 2 0 2 3]";
+    let rendered = render(&picture(view, "\"bdpt\" \"integer maxdepth\" 1", world, 64));
+    assert_eq!((rendered.bad_samples, rendered.first_bad), (0, None));
+}
+
 #[test]
 fn strategies_that_are_none_are_refused() {
     for (word, said) in [("1,1", "not \"1,1\""), ("2", "expected"), ("a,b", "expected"), ("1,0", "expected")]

@@ -104,7 +104,9 @@ impl Densities {
         } else if s == 1 {
             add(0, met / asked);
         }
-        (1.0 / sum) as f32
+        // Rounding may lose the density of the way that was taken, of a lamp in its own plane for one. Such a path counts for
+        // nothing, as next to nothing comes along it.
+        if sum.is_nan() { 0.0 } else { (1.0 / sum) as f32 }
     }
 }
 
@@ -161,6 +163,13 @@ mod tests {
             }
             assert!(all == 0.0 || (sum - 1.0).abs() < 1e-5, "{sum}");
         }
+    }
+
+    #[test]
+    fn a_density_that_is_lost_is_no_share() {
+        let walks = [[1.0, 0.0], [0.0, 2.0]].map(|walks| (walks, Edges::Both)).to_vec();
+        let d = Densities { walks, asked: 0.0, is_met: true, is_seen: true };
+        assert_eq!(d.share(1), 0.0);
     }
 
     #[test]
