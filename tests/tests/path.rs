@@ -194,7 +194,17 @@ fn files_without_integrator_are_path_traced_as_deep_as_their_language_has_it() {
     assert_eq!(depth(&ready(ball, Some("whitted"))), 10);
     assert_eq!(depth(&ready(&format!("Integrator \"volpath\"\n{ball}"), None)), 5);
     assert_eq!(depth(&ready(&format!("Integrator \"bdpt\"\n{ball}"), None)), 5);
-    assert_eq!(depth(&ready(&format!("Integrator \"path\" \"integer maxdepth\" 3\n{ball}"), None)), 3);
+    let said = format!(
+        "Integrator \"path\" \"integer maxdepth\" 3 \"integer roulettedepth\" 2 \"string lightsampler\" \"power\"\n{ball}"
+    );
+    assert_eq!(depth(&ready(&said, None)), 3);
+    // Another way to follow paths keeps what the file says of paths; whitted's depth is that of a tree.
+    for other in ["bdpt", "light", "volpath", "direct"] {
+        assert_eq!(depth(&ready(&said, Some(other))), 3, "{other}");
+    }
+    let rules = &ready(&said, Some("volpath")).rules;
+    assert_eq!((rules["roulettedepth"].clone(), rules["lightsampler"].clone()), (2.into(), "power".into()));
+    assert_eq!(depth(&ready(&said, Some("whitted"))), 10);
 
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("one.obj");

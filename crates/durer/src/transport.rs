@@ -60,7 +60,8 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
     let of_scene = desc.integrator.clone();
     let mut node = match (&options.integrator, of_scene) {
         (Some(kind), Some(node)) if node.kind == *kind => node,
-        (Some(kind), _) => Node::new(kind, durer_scene::Params::new()),
+        (Some(kind), Some(node)) => of_kind(kind, &node),
+        (Some(kind), None) => Node::new(kind, durer_scene::Params::new()),
         (None, Some(node)) => node,
         (None, None) => compile::default_integrator(desc),
     };
@@ -84,6 +85,18 @@ pub(crate) fn integrator_node(desc: &SceneDesc, options: &Options, diagnostics: 
             let hint = format!("add --integrator {}", takers.join(" or "));
             diagnostics.warning(Location::None, message).hint(hint);
         }
+    }
+    node
+}
+
+/// Another integrator, with what the scene's says that means the same to both: depth, roulette, choice of lights.
+fn of_kind(kind: &str, of_scene: &Node) -> Node {
+    let mut node = Node::new(kind, durer_scene::Params::new());
+    let entry = |kind: &str| INTEGRATORS.iter().find(|e| e.answers_to(kind)).map(|e| e.schema);
+    let (Some(from), Some(to)) = (entry(&of_scene.kind), entry(kind)) else { return node };
+    if PATHS.contains(&from.name) && PATHS.contains(&to.name) {
+        let shared = |param: &&Param| to.params.iter().any(|spec| spec.name == param.name);
+        of_scene.params.iter().filter(shared).for_each(|param| node.params.push(param.clone()));
     }
     node
 }

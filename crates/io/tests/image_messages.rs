@@ -167,3 +167,23 @@ fn bitmaps_that_are_too_wide_or_negative_are_told_with_their_size() {
         "a.bmp: a Windows bitmap (BMP) of a rare kind, which durer does not read; export it as EXR or PNG";
     assert_eq!(said(&strange, "a.bmp"), unread);
 }
+
+/// A palette is a row of 3 bytes per colour, 256 colours at most; the `png` crate panics at others.
+#[test]
+fn a_palette_that_is_no_row_of_colours_is_damage() {
+    let indexed = |palette: usize| {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 1, 1);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(vec![255; palette]);
+        let mut writer = encoder.write_header().expect("header");
+        writer.write_image_data(&[0]).expect("one pixel");
+        drop(writer);
+        file
+    };
+    read(&indexed(768), "a.png", Limits::default()).expect("256 colours");
+    let whole =
+        "a.png: damaged PNG: its palette is no row of whole colours; copy or export the picture again";
+    assert_eq!(said(&indexed(719), "a.png"), whole);
+    said(&indexed(771), "a.png");
+}

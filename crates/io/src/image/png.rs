@@ -30,6 +30,11 @@ pub(super) fn decode(source: &Source<'_>) -> Result<Image, AssetError> {
     // A palette of 1 bit per pixel expands to 4 bytes: 32 times.
     source.check_size(width.into(), height.into(), 1, 32 * BEST_RATIO)?;
     let mut reader = decoder.read_info().map_err(fail)?;
+    // The crate panics where it expands a palette with a part of a colour.
+    let palette = reader.info().palette.as_deref().unwrap_or_default();
+    if !palette.len().is_multiple_of(3) {
+        return Err(source.damaged("PNG", "its palette is no row of whole colours"));
+    }
     let size =
         reader.output_buffer_size().ok_or_else(|| source.damaged("PNG", "its header makes no sense"))?;
     let mut bytes = vec![0; size];
