@@ -49,8 +49,11 @@ fn row(words: &[&str]) -> Result<Interface, String> {
     };
     let number = |word: &str| {
         let shown: String = word.chars().take(40).collect();
-        let value = word.parse::<f64>().ok().filter(|v| v.is_finite() && v.abs() < 1e9);
-        value.ok_or_else(|| format!("expected a number, found {shown}"))
+        match word.parse::<f64>() {
+            Ok(value) if value.abs() < 1e9 => Ok(value),
+            Ok(value) if value.is_finite() => Err(format!("{shown} is out of range, expected less than 1e9")),
+            _ => Err(format!("expected a number, found {shown}")),
+        }
     };
     let (radius, thickness, index, diameter) =
         (number(radius)?, number(thickness)?, number(index)?, number(diameter)?);
@@ -96,6 +99,7 @@ mod tests {
             ("# x\n25", "line 2: 1 number, expected 4: radius, thickness, index and diameter (mm)"),
             ("25 5 1.5 big", "line 1: expected a number, found big"),
             ("25 5 1.5 nan", "line 1: expected a number, found nan"),
+            ("-2e12 5 1.5 9", "line 1: -2e12 is out of range, expected less than 1e9"),
             ("25 -5 1.5 9", "line 1: the way to the next surface is -5 mm, expected 0 or more"),
             ("25 5 0.9 9", "line 1: the index of refraction is 0.9, expected 1 to 5, or 0 for air"),
             ("25 5 1.5 0", "line 1: the diameter is 0 mm, expected more than 0"),
